@@ -1,0 +1,40 @@
+// Where a picture is taken from.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace stipple {
+
+// World coordinates in the cloud's own units. Throughout, image row 0 is the top one.
+struct Camera {
+  glm::dvec3 eye{0.0};
+  glm::dvec3 target{0.0, 1.0, 0.0};
+  glm::dvec3 up{0.0, 0.0, 1.0};
+  double fov_deg = 60.0;  // vertical field of view, above 0 and below 180
+};
+
+// A camera and the pixels it is drawn to, resolved into an orthonormal basis.
+// For a world point p and r = p - eye: depth = dot(forward, r); the point is drawn where depth > near; its place in
+// pixels is x = width / 2 * (1 + dot(right, r) * cot_x / depth), y = height / 2 * (1 - dot(up, r) * cot_y / depth),
+// and its pixel is (floor(x), floor(y)) where 0 <= x < width and 0 <= y < height.
+struct View {
+  glm::dvec3 eye{0.0};
+  glm::dvec3 right{1.0, 0.0, 0.0};
+  glm::dvec3 up{0.0, 0.0, 1.0};
+  glm::dvec3 forward{0.0, 1.0, 0.0};
+  double cot_x = 1.0;  // cot_y / aspect
+  double cot_y = 1.0;  // cot(fov / 2)
+  double near = 1e-3;  // world units, above 0. Far is infinite
+  glm::ivec2 size{0};  // pixels
+
+  bool operator==(const View&) const = default;
+
+  // World size of a pixel at this depth.
+  double pixel_size(double depth) const { return 2.0 * depth / (cot_y * size.y); }
+};
+
+// Throws UsageError when eye and target coincide, the field of view is out of range, or size is not positive. An `up`
+// parallel to the line of sight is replaced by the axis farthest from it.
+View make_view(const Camera& camera, const glm::ivec2& size, double near);
+
+}  // namespace stipple
