@@ -9,5 +9,4 @@ function(stipple_embed_shaders target dir)
     COMMENT "Embedding shaders"
     VERBATIM)
   target_sources(${target} PRIVATE ${generated})
-  target_compile_definitions(${target} PRIVATE STIPPLE_SHADER_DIR="${dir}")
 endfunction()

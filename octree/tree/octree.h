@@ -42,9 +42,9 @@ struct Node {
   std::uint32_t parent = kNone;
   std::array<std::uint32_t, 8> children{kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};  // x<<2 | y<<1 | z
   int level = 0;
-  glm::uvec3 cell{0};  // of 2^level cells along each axis
+  glm::uvec3 cell{0};       // of 2^level cells along each axis
   std::uint32_t first = 0;  // slots [first, first + count) are the node's own points
-  std::uint32_t count = 0;
+  std::uint32_t count = 0;  // 0 for an inner node whose points all moved up
   std::uint32_t first_cluster = 0;
   std::uint32_t cluster_count = 0;
   GridBox box;          // tight, own points
@@ -61,6 +61,7 @@ struct Node {
 // Additive: every point is in exactly one node. Inner nodes hold an even subsample of their subtree, leaves the rest.
 struct Octree {
   Grid grid;
+  GridBox bounds;  // that the cube was laid around: cells are counted from bounds.min
   RootCube cube;
   std::vector<Node> nodes;        // nodes[0] is the root; parents before children. Empty for an empty cloud
   std::vector<Cluster> clusters;  // a node's clusters are consecutive and cover its slots in order

@@ -19,12 +19,14 @@ struct Image {
 // Pixels without a point get `background` (0xRRGGBB).
 Image compose(const FrameData& frame, std::uint32_t background);
 
-// Keyword to text, kept as PNG tEXt chunks: provenance travels with the picture.
+// Keyword (1 to 79 Latin-1 characters) to text (UTF-8), kept as PNG tEXt chunks, iTXt where the text is not ASCII:
+// provenance travels with the picture.
 using ImageText = std::map<std::string, std::string>;
 
-// Throws Error when the file cannot be written; a failed write leaves no file behind.
+// Throws Error when the file cannot be written; a failed write leaves no file behind, nor does it touch an older one.
 void write_png(const std::string& path, const Image& image, const ImageText& text = {});
-// Throws Error when the file is missing or not a PNG. Alpha is dropped, grey and palette become RGB, 16 bits become 8.
+// Throws Error when the file is missing, not a whole valid PNG, or has a side above 16384 pixels. Alpha is dropped,
+// grey and palette become RGB, 16 bits become 8.
 Image read_png(const std::string& path);
 
 }  // namespace stipple

@@ -1,0 +1,20 @@
+// From rows, one record a point, to columns.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "octree/cloud/attribute.h"
+#include "octree/read/las/las_format.h"
+
+namespace stipple::las {
+
+// `records` holds out.size() records of `record_length` bytes.
+void decode_positions(std::span<const std::byte> records, std::size_t record_length, std::span<glm::ivec3> out);
+
+// Fills `column`, whose size says how many records of `record_length` bytes there are in `records`. The column's
+// attribute is the field's.
+void decode_field(const Field& field, std::span<const std::byte> records, std::size_t record_length, Column& column);
+
+}  // namespace stipple::las

@@ -1,0 +1,54 @@
+#include "render/frame/feedback_target.h"
+
+#include <limits>
+
+namespace stipple {
+
+FeedbackTarget::FeedbackTarget(const glm::ivec2& size, DepthStorage storage)
+    : storage_(storage),
+      points_(GL_RGBA32I, size),
+      ids_(GL_R32UI, size),
+      depth_(storage == DepthStorage::attachment ? GL_DEPTH_COMPONENT32F : GL_R32UI, size) {
+  clear();
+}
+
+void FeedbackTarget::clear() {
+  // The points need no clearing: they are read only where there is an id
+  const GLuint no_point = kNoPoint;
+  glClearTexImage(ids_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &no_point);
+  if (storage_ == DepthStorage::attachment) {
+    const GLfloat far = 0.0f;
+    glClearTexImage(depth_.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far);
+  } else {
+    const GLuint far = 0;
+    glClearTexImage(depth_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &far);
+  }
+}
+
+FrameData FeedbackTarget::read(double near) const {
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+  FrameData frame = empty_frame(size());
+  const std::size_t pixels = frame.pixels();
+  const auto bytes = [&](std::size_t each) { return static_cast<GLsizei>(pixels * each); };
+
+  std::vector<glm::ivec4> points(pixels);
+  glGetTextureImage(points_.name(), 0, GL_RGBA_INTEGER, GL_INT, bytes(sizeof(glm::ivec4)), points.data());
+  glGetTextureImage(ids_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, bytes(4), frame.ids.data());
+  if (storage_ == DepthStorage::attachment)
+    glGetTextureImage(depth_.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, bytes(4), frame.depth.data());
+  else
+    glGetTextureImage(depth_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, bytes(4), frame.depth.data());
+
+  for (std::size_t i = 0; i < pixels; ++i) {
+    if (frame.ids[i] == kNoPoint) {
+      frame.depth[i] = std::numeric_limits<float>::infinity();
+      continue;
+    }
+    frame.depth[i] = static_cast<float>(near / static_cast<double>(frame.depth[i]));
+    frame.positions[i] = glm::ivec3(points[i]);
+    frame.rgba[i] = static_cast<std::uint32_t>(points[i].w);
+  }
+  return frame;
+}
+
+}  // namespace stipple

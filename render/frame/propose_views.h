@@ -1,0 +1,23 @@
+// Cameras for a cloud that nobody has looked at yet.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "octree/cloud/grid.h"
+#include "render/frame/camera.h"
+#include "render/frame/point_set.h"
+
+namespace stipple {
+
+struct NamedCamera {
+  std::string name;
+  Camera camera;
+};
+
+// "oblique" and "aerial" show everything from 30 and 75 degrees above the horizon, "low" looks along the cloud from
+// just above what stands around the eye. `aspect` is width over height. Stray points far outside do not count.
+// An empty cloud gives cameras that look at the origin.
+std::vector<NamedCamera> propose_cameras(const PointSet& points, double aspect);
+
+}  // namespace stipple

@@ -1,0 +1,41 @@
+// Buffers of the GPU.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "render/gpu/handle.h"
+
+namespace stipple {
+
+// Immutable storage of fixed size. Move-only.
+class GpuBuffer {
+ public:
+  GpuBuffer() = default;
+  // `flags` as in glNamedBufferStorage. Contents are undefined until written. Throws Error when memory is refused.
+  explicit GpuBuffer(std::size_t bytes, GLbitfield flags = GL_DYNAMIC_STORAGE_BIT);
+
+  GLuint name() const { return handle_.name(); }
+  std::size_t bytes() const { return bytes_; }
+
+  void write(std::size_t offset, const void* data, std::size_t bytes);
+  template <class T>
+  void write(std::size_t offset, std::span<const T> data) {
+    write(offset, data.data(), data.size_bytes());
+  }
+  void read(std::size_t offset, void* data, std::size_t bytes) const;
+  // Fills the range with a repeated 32-bit value. Offset and size in bytes, multiples of 4.
+  void fill(std::uint32_t value, std::size_t offset, std::size_t bytes);
+  void fill(std::uint32_t value) { fill(value, 0, bytes_); }
+
+  void bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name()); }
+  void bind_storage(GLuint binding, std::size_t offset, std::size_t bytes) const;
+  void bind_uniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, name()); }
+
+ private:
+  Handle<gl_delete::buffer> handle_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace stipple

@@ -1,0 +1,39 @@
+#include "render/gpu/texture.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "octree/core/error.h"
+
+namespace stipple {
+
+Texture2D::Texture2D(GLenum format, const glm::ivec2& size) : format_(format), size_(size) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &name);
+  handle_ = Handle<gl_delete::texture>(name);
+  glTextureStorage2D(name, 1, format, size.x, size.y);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+Framebuffer::Framebuffer(std::span<const Texture2D* const> colors, const Texture2D* depth) {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  handle_ = Handle<gl_delete::framebuffer>(name);
+  std::vector<GLenum> draw_buffers;
+  for (const Texture2D* color : colors) {
+    const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(draw_buffers.size());
+    glNamedFramebufferTexture(name, attachment, color->name(), 0);
+    draw_buffers.push_back(attachment);
+  }
+  if (depth) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->name(), 0);
+  glNamedFramebufferDrawBuffers(name, static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
+  const GLenum status = glCheckNamedFramebufferStatus(name, GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Error(fmt::format("the OpenGL driver rejects the feedback framebuffer (status 0x{:04x})", status));
+}
+
+}  // namespace stipple

@@ -1,0 +1,48 @@
+#include "render/method/method.h"
+
+#include <array>
+
+#include "octree/core/error.h"
+#include "render/method/brute_force.h"
+#include "render/method/hierarchical.h"
+#include "render/method/unstructured.h"
+
+namespace stipple {
+namespace {
+
+constexpr std::array kModes{Mode::brute_force, Mode::hierarchical, Mode::unstructured};
+
+}  // namespace
+
+std::span<const Mode> all_modes() { return kModes; }
+
+std::string_view name_of(Mode mode) {
+  switch (mode) {
+    case Mode::brute_force: return "brute-force";
+    case Mode::hierarchical: return "hierarchical";
+    case Mode::unstructured: return "unstructured";
+  }
+  return "";
+}
+
+std::optional<Mode> mode_named(std::string_view name) {
+  for (const Mode mode : kModes)
+    if (name_of(mode) == name) return mode;
+  return std::nullopt;
+}
+
+bool needs_octree(Mode mode) { return mode == Mode::hierarchical; }
+
+std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Octree* octree,
+                                    const MethodOptions& options) {
+  switch (mode) {
+    case Mode::brute_force: return std::make_unique<BruteForce>(points);
+    case Mode::hierarchical:
+      if (!octree) throw Error("mode hierarchical needs an octree");
+      return std::make_unique<Hierarchical>(points, *octree, options.largest_budget);
+    case Mode::unstructured: return std::make_unique<Unstructured>(points, options.seed);
+  }
+  return nullptr;
+}
+
+}  // namespace stipple

@@ -1,0 +1,68 @@
+#include "render/method/progressive_renderer.h"
+
+namespace stipple {
+
+ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, double point_size)
+    : method_(method), rasterizer_(make_rasterizer(rasterizer)), grid_(grid), point_size_(point_size) {}
+
+void ProgressiveRenderer::resize(const glm::ivec2& size) {
+  for (auto& target : targets_) target.emplace(size, rasterizer_->depth_storage());
+  if (method_.carry() == Carry::vertices) vertices_.emplace(size);
+}
+
+void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
+  switch (method_.carry()) {
+    case Carry::none: break;
+    case Carry::grid: items.push_back(CarriedGrid{&previous()}); break;
+    case Carry::vertices: items.push_back(vertices_->vertices()); break;
+  }
+}
+
+void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
+  if (!targets_[0] || size != current().size()) resize(size);
+  GpuBuffer point(sizeof(PackedPoint));
+  point.fill(0);
+  std::vector<DrawItem> items{PointRange{.points = &point, .count = 1}};
+  append_carry(items);
+  // The point lies in front of the eye, so that no pass ends early
+  const View view{.eye = grid_.world_from_grid(glm::ivec3(0)) - glm::dvec3(0, 10, 0), .near = 1.0, .size = size};
+  uniforms_.set(make_view_block(view, grid_, point_size_));
+  rasterizer_->draw(current(), items);
+  if (vertices_) {
+    vertices_->prepare(current());
+    // The second time the carried point is drawn, too
+    rasterizer_->draw(current(), items);
+    current().clear();
+    vertices_->prepare(current());
+  }
+  current().clear();
+  coverage_.count(current());
+  glFinish();
+}
+
+FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
+  if (view != view_) {
+    if (!targets_[0] || view.size != current().size()) resize(view.size);
+    view_ = view;
+    method_.start_view(view);
+  }
+  if (method_.finished()) return {0, true};
+
+  Selection selection = method_.select(budget);
+  current_ = 1 - current_;
+  append_carry(selection.items);
+  uniforms_.set(make_view_block(view, grid_, point_size_));
+  rasterizer_->draw(current(), selection.items);
+  if (vertices_) vertices_->prepare(current());
+  return {selection.points, method_.finished()};
+}
+
+FrameData ProgressiveRenderer::read() { return current().read(view_.near); }
+
+std::uint64_t ProgressiveRenderer::covered_pixels() { return coverage_.count(current()); }
+
+std::uint64_t ProgressiveRenderer::points_reprojected() {
+  return method_.carry() == Carry::none ? 0 : coverage_.count(previous());
+}
+
+}  // namespace stipple

@@ -1,0 +1,28 @@
+// S19: Schuetz, Mandlburger, Otepka, Wimmer 2019, "Progressive Real-Time Rendering of One Billion Points Without
+// Hierarchical Acceleration Structures".
+#pragma once
+
+#include "render/method/method.h"
+#include "render/store/gpu_cloud.h"
+
+namespace stipple {
+
+// The whole cloud lies shuffled on the GPU. Each frame draws the carried vertices and the next stretch of the buffer,
+// around its end to its beginning; a view is finished when the stretches drawn for it add up to the whole buffer.
+class Unstructured final : public Method {
+ public:
+  Unstructured(const PointSet& points, std::uint64_t seed);
+
+  Carry carry() const override { return Carry::vertices; }
+  // The next stretch begins where the last ended, also for a new view.
+  void start_view(const View&) override { left_ = cloud_.size(); }
+  Selection select(std::uint32_t budget) override;
+  bool finished() const override { return left_ == 0; }
+
+ private:
+  GpuCloud cloud_;
+  std::size_t cursor_ = 0;  // first slot of the next stretch
+  std::size_t left_;        // slots not drawn yet for this view
+};
+
+}  // namespace stipple

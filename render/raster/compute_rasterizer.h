@@ -1,0 +1,22 @@
+// Points by compute shaders and atomics: a depth pass, then a pass that settles who owns the pixel.
+#pragma once
+
+#include "render/raster/rasterizer.h"
+#include "render/raster/sources.h"
+
+namespace stipple {
+
+class ComputeRasterizer final : public Rasterizer {
+ public:
+  ComputeRasterizer();
+  DepthStorage depth_storage() const override { return DepthStorage::image; }
+  void draw(FeedbackTarget& target, std::span<const DrawItem> items) override;
+
+ private:
+  SourcePrograms depth_;
+  SourcePrograms claim_;
+  SourcePrograms repeat_;
+  TieNotes notes_;
+};
+
+}  // namespace stipple

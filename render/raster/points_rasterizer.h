@@ -1,0 +1,24 @@
+// GL_POINTS with a depth test, as the papers draw, then once more at equal depth to give ties to the lowest id.
+#pragma once
+
+#include "render/raster/rasterizer.h"
+#include "render/raster/sources.h"
+
+namespace stipple {
+
+class PointsRasterizer final : public Rasterizer {
+ public:
+  PointsRasterizer();
+  DepthStorage depth_storage() const override { return DepthStorage::attachment; }
+  void draw(FeedbackTarget& target, std::span<const DrawItem> items) override;
+
+ private:
+  SourcePrograms nearest_;
+  SourcePrograms claim_;
+  SourcePrograms repeat_;
+  TieNotes notes_;
+  Handle<gl_delete::vertex_array> no_attributes_;
+  GpuBuffer repeat_command_;
+};
+
+}  // namespace stipple

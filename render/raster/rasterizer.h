@@ -1,0 +1,68 @@
+// Points to pixels. Two ways to do it, one result: nearest point, lowest id.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "render/frame/feedback_target.h"
+#include "render/gpu/buffer.h"
+
+namespace stipple {
+
+// Consecutive points of a buffer of PackedPoint.
+struct PointRange {
+  const GpuBuffer* points = nullptr;
+  const GpuBuffer* ids = nullptr;  // uint32 a point; null: point i has id first_id + i - first
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+  std::uint32_t first_id = 0;
+};
+
+// Vertices collected on the GPU from the last frame; how many, only the GPU knows.
+struct CarriedVertices {
+  const GpuBuffer* points = nullptr;
+  const GpuBuffer* ids = nullptr;
+  const GpuBuffer* command = nullptr;  // CarriedCommand of shaders/packing.glsl
+};
+
+// The pixels of the last frame, each a point.
+struct CarriedGrid {
+  const FeedbackTarget* previous = nullptr;
+};
+
+using DrawItem = std::variant<PointRange, CarriedVertices, CarriedGrid>;
+
+// Layout of CarriedCommand in shaders/packing.glsl.
+struct CarriedCommand {
+  std::uint32_t count, instance_count, first, base_instance;  // glDrawArraysIndirect
+  std::uint32_t groups_x, groups_y, groups_z;                 // glDispatchComputeIndirect
+  std::uint32_t padding;
+};
+
+enum class RasterizerKind { points, compute };
+
+class Rasterizer {
+ public:
+  virtual ~Rasterizer() = default;
+
+  virtual DepthStorage depth_storage() const = 0;
+
+  // Clears the target and draws all items into it, in any order: among the points of a pixel the nearest wins, equal
+  // depths go to the lowest id. The view block must be bound (ViewUniforms::set). Items must not read `target`.
+  virtual void draw(FeedbackTarget& target, std::span<const DrawItem> items) = 0;
+};
+
+std::unique_ptr<Rasterizer> make_rasterizer(RasterizerKind kind);
+
+// "points", "compute".
+std::string_view name_of(RasterizerKind kind);
+std::optional<RasterizerKind> rasterizer_named(std::string_view name);
+
+// Invocations of a work group of shaders/raster_compute.glsl.
+inline constexpr std::size_t kRasterGroupSize = 128;
+
+}  // namespace stipple

@@ -1,0 +1,49 @@
+// What both rasterizers share: binding the points of an item, and settling ties.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "render/gpu/program.h"
+#include "render/raster/rasterizer.h"
+
+namespace stipple {
+
+// One program per kind of item, made from the same shader files with another define (shaders/point_source.glsl).
+class SourcePrograms {
+ public:
+  // `make` compiles a variant from its defines.
+  template <class Make>
+  SourcePrograms(const std::string& pass, Make make)
+      : programs_{make({{"SOURCE_RANGE"}, {pass}}), make({{"SOURCE_VERTICES"}, {pass}}), make({{"SOURCE_GRID"}, {pass}})} {}
+
+  // Uses the program for this item and binds the item's points to it.
+  void use_for(const DrawItem& item) const;
+
+ private:
+  std::array<Program, std::variant_size_v<DrawItem>> programs_;
+};
+
+// The notes of shaders/ties.glsl.
+class TieNotes {
+ public:
+  TieNotes();
+  // Before the claim pass: forgets all notes and binds them.
+  void begin();
+  // After it: every pixel named in a note shows its winner.
+  void settle();
+  // Commands that repeat the claim pass, doing nothing unless the notes overflowed: byte offsets in buffer().
+  const GpuBuffer& buffer() const { return buffer_; }
+  static constexpr std::size_t kRepeatGroupsOffset = 4;
+  static constexpr std::size_t kRepeatInstancesOffset = 16;
+
+ private:
+  GpuBuffer buffer_;
+  Program settle_;
+};
+
+// Upper bound of the points of an item, where the CPU knows one: a vertex for each pixel at most.
+std::size_t item_capacity(const DrawItem& item);
+
+}  // namespace stipple

@@ -1,0 +1,145 @@
+#include "render/store/colorize.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "octree/core/error.h"
+
+namespace stipple {
+namespace {
+
+using Range = tbb::blocked_range<std::size_t>;
+
+constexpr std::uint32_t pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
+  return r | g << 8 | b << 16 | 0xFF000000u;
+}
+
+// Dark blue to yellow, even steps of lightness.
+constexpr std::array<glm::vec3, 6> kRamp{{{68, 1, 84}, {65, 68, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81},
+                                          {253, 231, 37}}};
+
+// Created, unclassified, ground, low, medium and high vegetation, building, low noise, key point, water, rail, road,
+// overlap, wire guard, conductor, tower, connector, bridge, high noise.
+constexpr std::array<std::uint32_t, 19> kClassColors{
+    pack(160, 160, 160), pack(190, 190, 190), pack(150, 111, 74), pack(158, 202, 110), pack(98, 168, 77),
+    pack(44, 122, 58),   pack(214, 96, 77),   pack(120, 60, 120), pack(230, 200, 80),  pack(66, 133, 200),
+    pack(110, 90, 90),   pack(90, 96, 105),   pack(200, 180, 220), pack(240, 170, 60), pack(250, 210, 60),
+    pack(130, 80, 160),  pack(220, 130, 190), pack(200, 150, 120), pack(180, 40, 160)};
+
+std::uint32_t ramp_color(double t) {
+  const double at = t * static_cast<double>(kRamp.size() - 1);
+  const auto low = std::min(static_cast<std::size_t>(at), kRamp.size() - 2);
+  const glm::vec3 c = glm::mix(kRamp[low], kRamp[low + 1], static_cast<float>(at - static_cast<double>(low))) + 0.5f;
+  return pack(static_cast<std::uint32_t>(c.x), static_cast<std::uint32_t>(c.y), static_cast<std::uint32_t>(c.z));
+}
+
+std::uint32_t grey_color(double t) {
+  const auto v = static_cast<std::uint32_t>(t * 255.0 + 0.5);
+  return pack(v, v, v);
+}
+
+// rgba(i) for all points, on all cores.
+template <class Rgba>
+void color_points(PointSet& set, const Rgba& rgba) {
+  tbb::parallel_for(Range(0, set.size(), 65536), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) set.points[i].rgba = rgba(i);
+  });
+}
+
+void color_by_rgb(const Column& column, PointSet& set) {
+  const auto values = column.as<std::uint16_t>();
+  const auto largest = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, values.size(), 65536), std::uint16_t{0},
+      [&](const auto& range, std::uint16_t most) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) most = std::max(most, values[i]);
+        return most;
+      },
+      [](std::uint16_t a, std::uint16_t b) { return std::max(a, b); });
+  const int shift = largest > 255 ? 8 : 0;
+  color_points(set, [&](std::size_t i) {
+    return pack(values[3 * i] >> shift, values[3 * i + 1] >> shift, values[3 * i + 2] >> shift);
+  });
+}
+
+// The 1st and 99th percentile of value(i), from at most a million of them.
+template <class Value>
+std::pair<double, double> robust_range(std::size_t count, const Value& value) {
+  const std::size_t step = std::max<std::size_t>(1, count / 1'000'000);
+  std::vector<double> sample;
+  for (std::size_t i = 0; i < count; i += step)
+    if (const double v = value(i); std::isfinite(v)) sample.push_back(v);
+  if (sample.empty()) return {0.0, 1.0};
+  const auto at = [&](double part) {
+    const auto nth = sample.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(sample.size() - 1));
+    std::nth_element(sample.begin(), nth, sample.end());
+    return *nth;
+  };
+  const double low = at(0.01);
+  return {low, at(0.99)};
+}
+
+template <class Value, class Rgba>
+void color_by_value(PointSet& set, const Value& value, const Rgba& rgba) {
+  const auto [low, high] = robust_range(set.size(), value);
+  const double stretch = high > low ? 1.0 / (high - low) : 0.0;
+  color_points(set, [&, low = low](std::size_t i) {
+    const double t = (value(i) - low) * stretch;
+    return rgba(t > 0.0 ? std::min(t, 1.0) : 0.0);  // not a number becomes 0
+  });
+}
+
+}  // namespace
+
+std::string choose_color(const Schema& schema, const std::string& name) {
+  if (name.empty()) {
+    for (const char* wanted : {"rgb", "intensity"})
+      if (find_attribute(schema, wanted)) return wanted;
+    return "height";
+  }
+  if (name == "height" || find_attribute(schema, name)) return name;
+  std::vector<std::string> names{"height"};
+  for (const Attribute& attribute : schema) names.push_back(attribute.name);
+  throw UsageError(fmt::format("--color {}: the points have no such attribute; there are: {}", name,
+                               fmt::join(names, ", ")));
+}
+
+std::vector<std::string> attributes_for_color(const std::string& color) {
+  return color == "height" ? std::vector<std::string>{} : std::vector{color};
+}
+
+PointSet make_point_set(const Cloud& cloud, const std::string& color) {
+  PointSet set;
+  set.grid = cloud.info.grid;
+  set.bounds = cloud.bounds;
+  set.points.resize(cloud.size());
+  tbb::parallel_for(Range(0, cloud.size(), 65536), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) set.points[i].position = cloud.positions[i];
+  });
+
+  if (color == "height") {
+    color_by_value(set, [&](std::size_t i) { return static_cast<double>(cloud.positions[i].z); }, ramp_color);
+    return set;
+  }
+  const Column* column = cloud.find(color);
+  if (!column) throw Error(fmt::format("{}: attribute {} was not read", cloud.info.path, color));
+  if (color == "rgb" && column->attribute.type == ScalarType::u16 && column->attribute.components == 3)
+    color_by_rgb(*column, set);
+  else if (color == "classification")
+    color_points(set, [&](std::size_t i) {
+      return kClassColors[static_cast<std::size_t>(value_at(*column, i)) % kClassColors.size()];
+    });
+  else if (color == "intensity")
+    color_by_value(set, [&](std::size_t i) { return value_at(*column, i); }, grey_color);
+  else
+    color_by_value(set, [&](std::size_t i) { return value_at(*column, i); }, ramp_color);
+  return set;
+}
+
+}  // namespace stipple

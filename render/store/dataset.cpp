@@ -1,0 +1,80 @@
+#include "render/store/dataset.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+
+#include "octree/build/builder.h"
+#include "octree/cloud/cloud.h"
+#include "render/store/colorize.h"
+
+namespace stipple {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Finaliser of splitmix64 (Steele, Lea, Flood 2014).
+std::uint64_t mix(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
+  return x ^ (x >> 31);
+}
+
+// Puts the points in the tree's order; ids become the order itself.
+void to_store_order(PointSet& set, const Octree& octree) {
+  Buffer<PackedPoint> ordered(set.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, set.size(), 16384), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) ordered[i] = set.points[octree.order[i]];
+  });
+  set.points = std::move(ordered);
+  set.ids = octree.order;
+}
+
+}  // namespace
+
+Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree) {
+  Dataset dataset;
+  auto start = Clock::now();
+  dataset.info = source.info();
+  dataset.color = choose_color(dataset.info.schema, color);
+  dataset.points = make_point_set(load_cloud(source, attributes_for_color(dataset.color)), dataset.color);
+  dataset.load_seconds = seconds_since(start);
+  if (!with_octree) return dataset;
+
+  start = Clock::now();
+  PointSet& set = dataset.points;
+  dataset.octree =
+      build_octree(set.grid, set.bounds, PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position));
+  to_store_order(set, *dataset.octree);
+  dataset.build_seconds = seconds_since(start);
+  return dataset;
+}
+
+double near_plane(const Grid& grid) { return std::max({grid.scale.x, grid.scale.y, grid.scale.z}); }
+
+std::uint64_t hash_points(const PointSet& set) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, set.size(), 65536), std::uint64_t{0},
+      [&](const auto& range, std::uint64_t sum) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const PackedPoint& p = set.points[i];
+          const auto x = static_cast<std::uint32_t>(p.position.x);
+          const auto y = static_cast<std::uint32_t>(p.position.y);
+          const auto z = static_cast<std::uint32_t>(p.position.z);
+          // A sum does not depend on the order of its terms
+          sum += mix(mix(mix(set.id(i)) ^ (std::uint64_t{x} << 32 | y)) ^ (std::uint64_t{z} << 32 | p.rgba));
+        }
+        return sum;
+      },
+      std::plus<>());
+}
+
+}  // namespace stipple

@@ -1,0 +1,51 @@
+// A whole cloud on the GPU, spread over buffers that any driver can address.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/frame/point_set.h"
+#include "render/raster/rasterizer.h"
+
+namespace stipple {
+
+class GpuCloud {
+ public:
+  // Points a buffer: 64 MiB, half of what shaders reach on Mesa's software renderer.
+  static constexpr std::uint32_t kChunkPoints = 1u << 22;
+
+  struct Chunk {
+    GpuBuffer points;  // PackedPoint
+    GpuBuffer ids;     // uint32
+  };
+
+  // Room for `points` points, contents undefined. Throws Error when memory is refused.
+  explicit GpuCloud(std::size_t points);
+
+  std::size_t size() const { return size_; }
+  std::span<Chunk> chunks() { return chunks_; }
+
+  // Appends the items that draw slots [first, first + count): one a chunk they touch.
+  void append_items(std::size_t first, std::size_t count, std::vector<DrawItem>& items) const;
+
+ private:
+  std::size_t size_;
+  std::vector<Chunk> chunks_;
+};
+
+// Slot i holds point i.
+GpuCloud upload_in_order(const PointSet& points);
+
+// Slot permute(i) holds point i, the permutation computed on the GPU: S19's prime-permutation shuffle with P the
+// largest prime <= size with P = 3 mod 4, applied twice, the seed added in between. Equal seeds give equal orders; slots
+// from P on hold the points from P on.
+GpuCloud upload_shuffled(const PointSet& points, std::uint64_t seed);
+
+// The largest prime p <= n with p = 3 mod 4, or 0 when n < 3.
+std::uint32_t largest_shuffle_prime(std::uint32_t n);
+
+// Where upload_shuffled puts point i of n, on the CPU: for tests.
+std::uint32_t shuffled_slot(std::uint32_t i, std::uint32_t n, std::uint64_t seed);
+
+}  // namespace stipple

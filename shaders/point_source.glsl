@@ -1,0 +1,46 @@
+// Where the points of a pass come from:
+//   SOURCE_RANGE    consecutive points of a buffer (fill)
+//   SOURCE_VERTICES points collected from the last frame, counted on the GPU (reproject as S19)
+//   SOURCE_GRID     the last frame itself, a point a pixel (reproject as T16)
+#include "packing.glsl"
+
+#ifdef SOURCE_GRID
+
+layout(binding = 0) uniform isampler2D previous_points;
+layout(binding = 1) uniform usampler2D previous_ids;
+
+bool fetch_point(uint i, out ivec4 point, out uint id) {
+  ivec2 size = textureSize(previous_ids, 0);
+  ivec2 pixel = ivec2(i % uint(size.x), i / uint(size.x));
+  if (pixel.y >= size.y) return false;
+  id = texelFetch(previous_ids, pixel, 0).x;
+  if (id == kNoPoint) return false;
+  point = texelFetch(previous_points, pixel, 0);
+  return true;
+}
+
+#else
+
+layout(std430, binding = 0) readonly buffer SourcePoints { ivec4 source_points[]; };
+layout(std430, binding = 1) readonly buffer SourceIds { uint source_ids[]; };
+layout(location = 0) uniform uint source_first;
+layout(location = 2) uniform uint source_id_shift;  // id minus place, modulo 2^32
+layout(location = 3) uniform bool source_has_ids;
+
+#ifdef SOURCE_VERTICES
+layout(std430, binding = 2) readonly buffer SourceCommand { CarriedCommand source_command; };
+uint source_count() { return source_command.count; }
+#else
+layout(location = 1) uniform uint source_size;
+uint source_count() { return source_size; }
+#endif
+
+bool fetch_point(uint i, out ivec4 point, out uint id) {
+  if (i >= source_count()) return false;
+  uint place = source_first + i;
+  point = source_points[place];
+  id = source_has_ids ? source_ids[place] : source_id_shift + place;
+  return true;
+}
+
+#endif

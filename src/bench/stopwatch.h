@@ -1,0 +1,26 @@
+// Repeated timing of one piece of work.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "src/json/json.h"
+
+namespace stipple {
+
+// What `repeats` runs of one part took, after one run that does not count.
+struct Timing {
+  std::string part;
+  std::string unit;     // of `amount`: "points", "frames"
+  double amount = 0.0;  // worked off in one run
+  std::vector<double> milliseconds;
+
+  double median_ms() const;
+  double per_second() const { return amount / (1e-3 * median_ms()); }
+  Json json() const;
+};
+
+Timing time_part(std::string part, double amount, std::string unit, int repeats, const std::function<void()>& work);
+
+}  // namespace stipple

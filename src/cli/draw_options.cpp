@@ -1,0 +1,65 @@
+#include "src/cli/draw_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "octree/core/error.h"
+#include "src/cli/cli.h"
+
+namespace stipple {
+
+void add_draw_options(CLI::App& command, DrawOptions& options) {
+  command.add_option("--size", options.size, "Width and height of the picture in pixels, as in 1920x1080.")
+      ->capture_default_str();
+  command
+      .add_option("--raster", options.raster,
+                  "Rasterizer: compute (shaders and atomics) or points (GL_POINTS, as the papers draw).")
+      ->capture_default_str();
+  CLI::Option* budget = command
+                            .add_option("--budget", options.budget,
+                                        "Points added a frame, plain or with k or M for thousands or millions.")
+                            ->capture_default_str();
+  command
+      .add_option("--fps", options.fps, "Instead of a fixed budget: steer it to this many frames a second.")
+      ->excludes(budget);
+  command.add_option("--point-size", options.point_size, "Edge of a point's square in pixels.")->capture_default_str();
+  command.add_option("--color", options.color,
+                     "Colour by rgb, height or any attribute (`stipple info` lists them). Default: the first there is "
+                     "of rgb, intensity, height.");
+  command
+      .add_option("--background", options.background, "Colour of pixels without a point, as RRGGBB in hexadecimal.")
+      ->capture_default_str();
+  command.add_option("--seed", options.seed, "Seed of the shuffle of mode unstructured, a whole number from 0.")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+RasterizerKind rasterizer_of(const DrawOptions& options) {
+  const auto kind = rasterizer_named(options.raster);
+  if (!kind) throw UsageError(fmt::format("--raster {}: expected points or compute", options.raster));
+  return *kind;
+}
+
+BudgetPolicy budget_of(const DrawOptions& options) {
+  BudgetPolicy policy;
+  policy.points = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>(parse_count("--budget", options.budget), 0xFFFFFFFFu));
+  if (!options.fps.empty()) policy.frames_per_second = parse_positive("--fps", options.fps);
+  return policy;
+}
+
+Until parse_until(std::string_view text) {
+  Until until;
+  if (text == "converged") return until;
+  if (text.starts_with("frame:")) {
+    until.frames = parse_count("--until frame:", text.substr(6));
+  } else if (text.starts_with("ms:")) {
+    until.milliseconds = parse_positive("--until ms:", text.substr(3));
+  } else {
+    throw UsageError(fmt::format("--until {}: expected converged, frame:N or ms:T", text));
+  }
+  return until;
+}
+
+}  // namespace stipple

@@ -1,0 +1,33 @@
+// Options that every command which draws has.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "render/raster/rasterizer.h"
+#include "src/run/view_run.h"
+
+namespace stipple {
+
+struct DrawOptions {
+  std::string size = "1280x720";
+  std::string raster = "compute";
+  std::string budget = "1M";
+  std::string fps;
+  std::string point_size = "1";
+  std::string color;
+  std::string background = "808080";
+  std::uint64_t seed = 0;
+};
+
+void add_draw_options(CLI::App& command, DrawOptions& options);
+
+// Their values. Each throws UsageError naming the option.
+RasterizerKind rasterizer_of(const DrawOptions& options);
+BudgetPolicy budget_of(const DrawOptions& options);
+// "converged", "frame:N" or "ms:T".
+Until parse_until(std::string_view text);
+
+}  // namespace stipple

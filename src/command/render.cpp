@@ -1,0 +1,197 @@
+#include "src/command/render.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <limits>
+#include <memory>
+
+#include "octree/core/error.h"
+#include "octree/core/output_file.h"
+#include "octree/read/open.h"
+#include "render/frame/propose_views.h"
+#include "render/gpu/context.h"
+#include "render/measure/image.h"
+#include "render/measure/npy.h"
+#include "render/reference/reference.h"
+#include "render/store/dataset.h"
+#include "src/camera/camera_file.h"
+#include "src/cli/cli.h"
+#include "src/cli/draw_options.h"
+#include "src/json/json.h"
+#include "src/run/provenance.h"
+#include "src/run/view_run.h"
+
+namespace stipple {
+namespace {
+
+constexpr const char* kReference = "reference";
+
+struct Options {
+  std::string input;
+  std::string output;
+  std::string mode = "unstructured";
+  std::string camera;
+  std::string eye;
+  std::string target;
+  std::string up = "0,0,1";
+  double fov_deg = 60.0;
+  std::string until = "converged";
+  std::string stats;
+  std::string position_out;
+  std::string depth_out;
+  DrawOptions draw;
+  bool json = false;
+};
+
+// What was drawn and how.
+struct Picture {
+  FrameData frame;
+  Json stats;
+};
+
+Camera camera_of(const Options& options, const PointSet& points, double aspect) {
+  if (!options.camera.empty()) {
+    const std::vector<NamedCamera> cameras = read_cameras(options.camera);
+    if (cameras.size() > 1)
+      throw UsageError(fmt::format("--camera {}: holds {} views; a picture is taken from one", options.camera,
+                                   cameras.size()));
+    return cameras.front().camera;
+  }
+  if (options.eye.empty()) return propose_cameras(points, aspect).front().camera;
+  return {.eye = parse_vector("--eye", options.eye),
+          .target = parse_vector("--target", options.target),
+          .up = parse_vector("--up", options.up),
+          .fov_deg = options.fov_deg};
+}
+
+Picture draw_reference(const Dataset& dataset, const View& view, double point_size) {
+  const auto start = std::chrono::steady_clock::now();
+  Picture picture{render_reference(dataset.points, view, point_size), {}};
+  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  picture.stats = {{"points_drawn", dataset.points.size()}, {"points_reprojected", 0}, {"frames", 1},
+                   {"converged", true},  {"ms", ms},     {"covered_pixels", picture.frame.covered_pixels()},
+                   {"nodes_visible", 0}, {"nodes_occluded", 0}, {"bytes_read", 0},
+                   {"gl_renderer", nullptr}};
+  return picture;
+}
+
+Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, const View& view, double point_size) {
+  const BudgetPolicy policy = budget_of(options.draw);
+  const HeadlessContext context;
+  const auto method = make_method(mode, dataset.points, dataset.octree ? &*dataset.octree : nullptr,
+                                  {.seed = options.draw.seed, .largest_budget = largest_budget(policy)});
+  ProgressiveRenderer renderer(*method, rasterizer_of(options.draw), dataset.points.grid, point_size);
+  const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
+  const SelectionCounts counts = method->counts();
+  Picture picture{renderer.read(), {}};
+  picture.stats = {{"points_drawn", state.points_drawn}, {"points_reprojected", state.points_reprojected},
+                   {"frames", state.frame}, {"converged", state.converged}, {"ms", state.milliseconds},
+                   {"covered_pixels", state.covered_pixels}, {"nodes_visible", counts.nodes_visible},
+                   {"nodes_occluded", 0}, {"bytes_read", counts.bytes_read}};
+  picture.stats.update(context_provenance(context));
+  return picture;
+}
+
+void write_arrays(const Options& options, const FrameData& frame, const Grid& grid) {
+  const auto height = static_cast<std::size_t>(frame.size.y);
+  const auto width = static_cast<std::size_t>(frame.size.x);
+  if (!options.depth_out.empty()) write_npy(options.depth_out, std::span(frame.depth), {height, width});
+  if (options.position_out.empty()) return;
+  std::vector<double> positions(3 * frame.pixels(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    if (frame.ids[i] == kNoPoint) continue;
+    const glm::dvec3 world = grid.world_from_grid(frame.positions[i]);
+    for (int axis = 0; axis < 3; ++axis) positions[3 * i + static_cast<std::size_t>(axis)] = world[axis];
+  }
+  write_npy(options.position_out, std::span<const double>(positions), {height, width, 3});
+}
+
+void run(const Options& options) {
+  // Check what can be checked before the points are read
+  const std::optional<Mode> mode = mode_named(options.mode);
+  if (!mode && options.mode != kReference)
+    throw UsageError(fmt::format("--mode {}: expected reference, brute-force, hierarchical or unstructured", options.mode));
+  const glm::ivec2 size = parse_size("--size", options.draw.size);
+  const double point_size = parse_positive("--point-size", options.draw.point_size);
+  const std::uint32_t background = parse_color("--background", options.draw.background);
+  rasterizer_of(options.draw);
+  budget_of(options.draw);
+  parse_until(options.until);
+
+  const auto source = open_source(options.input);
+  for (const std::string& warning : source->info().warnings) warn(warning);
+  const Dataset dataset = load_dataset(*source, options.draw.color, mode && needs_octree(*mode));
+  const Camera camera = camera_of(options, dataset.points, static_cast<double>(size.x) / size.y);
+  const View view = make_view(camera, size, near_plane(dataset.points.grid));
+  Picture picture = mode ? draw_with_gl(options, *mode, dataset, view, point_size)
+                         : draw_reference(dataset, view, point_size);
+
+  Json stats{{"mode", options.mode}, {"raster", mode ? Json(options.draw.raster) : Json()}, {"seed", options.draw.seed},
+             {"budget", budget_of(options.draw).points}, {"point_size", point_size},
+             {"background", options.draw.background},
+             {"load_ms", dataset.load_seconds * 1e3}, {"build_ms", dataset.build_seconds * 1e3}};
+  if (!options.draw.fps.empty()) stats["budget"] = options.draw.fps + " frames/s";
+  stats.update(picture.stats);
+  stats.update(dataset_provenance(dataset));
+  stats["view"] = view_provenance(view);
+  stats.update(program_provenance());
+
+  write_png(options.output, compose(picture.frame, background), {{"stipple", stats.dump()}});
+  if (!options.stats.empty()) write_file(options.stats, stats.dump(2) + "\n");
+  write_arrays(options, picture.frame, dataset.points.grid);
+  if (options.json) {
+    print_json(stats);
+    return;
+  }
+  fmt::print("{}: {} of {} points drawn in {} frames, {:.1f} ms; {} pixels covered{}\n", options.output,
+             with_thousands(stats["points_drawn"].get<std::uint64_t>()), with_thousands(dataset.points.size()),
+             stats["frames"].get<std::uint64_t>(), stats["ms"].get<double>(),
+             with_thousands(stats["covered_pixels"].get<std::uint64_t>()),
+             stats["converged"].get<bool>() ? ", converged" : "");
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("render", "Draw one picture of a point cloud.");
+  command->add_option("INPUT", options->input, "Point cloud to draw.")->required();
+  command->add_option("-o,--output", options->output, "PNG file to write; settings and results travel in its text.")
+      ->required();
+  command
+      ->add_option("--mode", options->mode,
+                   "Method: reference (all points, double precision, CPU), brute-force (all points each frame), "
+                   "hierarchical (Tredinnick and others 2016) or unstructured (Schuetz and others 2019).")
+      ->capture_default_str();
+  add_draw_options(*command, options->draw);
+  CLI::Option* camera = command->add_option(
+      "--camera", options->camera, R"(JSON file with "eye" and "target", and optionally "up" and "fov_deg".)");
+  CLI::Option* eye = command->add_option("--eye", options->eye, "Place of the eye as x,y,z in world coordinates.");
+  CLI::Option* target = command->add_option("--target", options->target, "Place the eye looks at, as x,y,z.");
+  eye->needs(target)->excludes(camera);
+  target->needs(eye)->excludes(camera);
+  command->add_option("--up", options->up, "Direction that is up in the picture, as x,y,z.")
+      ->needs(eye)
+      ->capture_default_str();
+  command->add_option("--fov", options->fov_deg, "Vertical field of view in degrees.")->needs(eye)->capture_default_str();
+  command
+      ->add_option("--until", options->until,
+                   "When to stop: converged (nothing is left to draw), frame:N (after N frames) or ms:T (after T "
+                   "milliseconds of drawing), whatever comes first.")
+      ->capture_default_str();
+  command->add_option("--stats", options->stats, "JSON file for what was drawn, how long it took, and all settings.");
+  command->add_option("--position-out", options->position_out,
+                      "NumPy file for the world coordinates of every pixel (height x width x 3 doubles, NaN where "
+                      "no point is).");
+  command->add_option("--depth-out", options->depth_out,
+                      "NumPy file for the depth along the line of sight in world units (height x width floats, inf "
+                      "where no point is).");
+  add_json_flag(*command, options->json);
+  command->footer(
+      "Without --camera or --eye the cloud is seen obliquely and whole.\n\n"
+      "Example:\n  stipple render scan.las -o scan.png --mode hierarchical --size 1920x1080 --until ms:500");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace stipple

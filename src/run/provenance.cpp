@@ -1,0 +1,61 @@
+#include "src/run/provenance.h"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <cmath>
+#include <fstream>
+#include <glm/gtc/constants.hpp>
+#include <thread>
+
+#include "src/cli/cli.h"
+
+namespace stipple {
+namespace {
+
+std::string cpu_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+std::string system_name() {
+  utsname name{};
+  uname(&name);
+  return fmt::format("{} {} {}", name.sysname, name.release, name.machine);
+}
+
+}  // namespace
+
+Json program_provenance() {
+  return {{"version", version()},
+          {"machine", {{"cpu", cpu_name()}, {"cores", std::thread::hardware_concurrency()}, {"system", system_name()}}}};
+}
+
+Json context_provenance(const HeadlessContext& context) {
+  return {{"gl_platform", context.platform()}, {"gl_renderer", context.renderer()}, {"gl_version", context.version()}};
+}
+
+Json dataset_provenance(const Dataset& dataset) {
+  return {{"path", dataset.info.path},
+          {"format", dataset.info.format},
+          {"points_total", dataset.points.size()},
+          {"points_hash", fmt::format("{:016x}", hash_points(dataset.points))},
+          {"color", dataset.color},
+          {"bounds", dataset.points.bounds.empty() ? Json() : json_of(world_box(dataset.points.grid, dataset.points.bounds))},
+          {"grid", {{"offset", json_of(dataset.points.grid.offset)}, {"scale", json_of(dataset.points.grid.scale)}}}};
+}
+
+Json view_provenance(const View& view) {
+  return {{"eye", json_of(view.eye)},
+          {"right", json_of(view.right)},
+          {"up", json_of(view.up)},
+          {"forward", json_of(view.forward)},
+          {"fov_deg", glm::degrees(2.0 * std::atan(1.0 / view.cot_y))},
+          {"near", view.near},
+          {"width", view.size.x},
+          {"height", view.size.y}};
+}
+
+}  // namespace stipple

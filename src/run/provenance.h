@@ -1,0 +1,22 @@
+// What it takes to repeat a result.
+#pragma once
+
+#include <string>
+
+#include "render/frame/camera.h"
+#include "render/gpu/context.h"
+#include "render/store/dataset.h"
+#include "src/json/json.h"
+
+namespace stipple {
+
+// {"version", "machine": {"cpu", "cores", "system"}}
+Json program_provenance();
+// {"gl_platform", "gl_renderer", "gl_version"}
+Json context_provenance(const HeadlessContext& context);
+// {"path", "format", "points_total", "points_hash", "color", "bounds", "grid"}
+Json dataset_provenance(const Dataset& dataset);
+// {"eye", "right", "up", "forward", "fov_deg", "near", "width", "height"}
+Json view_provenance(const View& view);
+
+}  // namespace stipple

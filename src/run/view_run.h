@@ -1,0 +1,45 @@
+// One method drawing one view from nothing, frame by frame, with a clock.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "render/frame/budget.h"
+#include "render/frame/frame_data.h"
+#include "render/method/progressive_renderer.h"
+
+namespace stipple {
+
+// When to stop: at the latest when converged.
+struct Until {
+  std::optional<std::uint64_t> frames;
+  std::optional<double> milliseconds;
+};
+
+// Points a frame: a fixed number, or what a frame-rate target allows.
+struct BudgetPolicy {
+  std::uint32_t points = 1'000'000;
+  std::optional<double> frames_per_second;
+};
+
+// The state after a frame. Sums run from the first frame; time is that of drawing alone, each frame awaited.
+struct FrameState {
+  std::uint64_t frame = 0;  // 1 for the first
+  double milliseconds = 0.0;
+  std::uint64_t points_drawn = 0;        // by fill
+  std::uint64_t points_reprojected = 0;  // carried points drawn again
+  std::uint64_t covered_pixels = 0;
+  std::uint32_t budget = 0;  // of this frame
+  bool converged = false;
+};
+
+// Draws until `until`; at least one frame. The renderer is warmed up first, outside the clock. `observe` is called after each frame, outside the clock, and may read the
+// renderer.
+FrameState run_view(ProgressiveRenderer& renderer, const View& view, const BudgetPolicy& policy, const Until& until,
+                    const std::function<void(const FrameState&)>& observe = {});
+
+// The largest number of points a frame may be asked for under this policy.
+std::uint32_t largest_budget(const BudgetPolicy& policy);
+
+}  // namespace stipple

@@ -1,0 +1,89 @@
+#include "src/study/curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "render/measure/psnr.h"
+
+namespace stipple {
+namespace {
+
+template <class Condition>
+std::optional<Reached> first_that(const Curve& curve, const Condition& condition) {
+  const auto found = std::ranges::find_if(curve.points, condition);
+  if (found == curve.points.end()) return std::nullopt;
+  return Reached{found->state.points_drawn, found->state.milliseconds};
+}
+
+// A field of a CSV file: quoted where it must be (RFC 4180).
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+// Over the repeats: null when any of them did not get there.
+Json reached_json(std::span<const Curve> repeats, const std::function<std::optional<Reached>(const Curve&)>& reach) {
+  std::vector<double> times;
+  std::uint64_t points = 0;
+  for (const Curve& curve : repeats) {
+    const std::optional<Reached> reached = reach(curve);
+    if (!reached) return nullptr;
+    times.push_back(reached->milliseconds);
+    points = reached->points_drawn;
+  }
+  std::ranges::sort(times);
+  const std::size_t middle = times.size() / 2;
+  const double median = times.size() % 2 ? times[middle] : 0.5 * (times[middle - 1] + times[middle]);
+  return {{"points", points}, {"ms_median", median}, {"ms_min", times.front()}, {"ms_max", times.back()}};
+}
+
+}  // namespace
+
+std::optional<Reached> reaches(const Curve& curve, double db) {
+  return first_that(curve, [db](const CurvePoint& point) { return psnr_db(point.mse) >= db; });
+}
+
+std::optional<Reached> reaches_identical(const Curve& curve) {
+  return first_that(curve, [](const CurvePoint& point) { return point.identical; });
+}
+
+std::string curves_csv(std::span<const Curve> curves) {
+  std::string csv =
+      "dataset,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,covered_pixels,mse,psnr_db,"
+      "identical,converged\n";
+  for (const Curve& curve : curves)
+    for (const auto& [state, mse, identical] : curve.points)
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{:.3f},{},{:.9g},{:.6f},{},{}\n", csv_field(curve.dataset),
+                         csv_field(curve.view), curve.mode, curve.raster, curve.repeat, state.frame, state.budget,
+                         state.points_drawn, state.points_reprojected, state.milliseconds, state.covered_pixels, mse,
+                         psnr_db(mse), identical ? 1 : 0, state.converged ? 1 : 0);
+  return csv;
+}
+
+Json summary_json(std::span<const Curve> repeats) {
+  const Curve& first = repeats.front();
+  Json reached;
+  for (const double quality : kQualities)
+    reached[fmt::format("{:.0f}_db", quality)] =
+        reached_json(repeats, [quality](const Curve& curve) { return reaches(curve, quality); });
+  reached["identical"] = reached_json(repeats, reaches_identical);
+  const CurvePoint& last = first.points.back();
+  return {{"dataset", first.dataset},
+          {"view", first.view},
+          {"mode", first.mode},
+          {"raster", first.raster},
+          {"repeats", repeats.size()},
+          {"frames", last.state.frame},
+          {"points_drawn", last.state.points_drawn},
+          {"covered_pixels", last.state.covered_pixels},
+          {"psnr_db", json_of_any(psnr_db(last.mse))},
+          {"converged", last.state.converged},
+          {"identical_to_brute_force", last.identical},
+          {"reached", reached}};
+}
+
+}  // namespace stipple

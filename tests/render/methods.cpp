@@ -1,0 +1,137 @@
+// Every method converges to the brute-force picture of its rasterizer.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <tuple>
+
+#include "octree/core/error.h"
+#include "octree/read/open.h"
+#include "render/method/progressive_renderer.h"
+#include "tests/render/gl_test.h"
+
+namespace stipple::test {
+namespace {
+
+using Progressive = std::tuple<Mode, RasterizerKind>;
+
+class EachMethod : public testing::TestWithParam<Progressive> {
+ protected:
+  Mode mode() const { return std::get<0>(GetParam()); }
+  RasterizerKind rasterizer() const { return std::get<1>(GetParam()); }
+  std::unique_ptr<Method> method(const Dataset& dataset, std::uint64_t seed = 0) const {
+    return make_method(mode(), dataset.points, &*dataset.octree, {.seed = seed});
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Methods, EachMethod,
+                         testing::Combine(testing::Values(Mode::hierarchical, Mode::unstructured),
+                                          testing::Values(RasterizerKind::points, RasterizerKind::compute)),
+                         [](const auto& param) {
+                           return std::string(name_of(std::get<0>(param.param))) + "_" +
+                                  std::string(name_of(std::get<1>(param.param)));
+                         });
+
+constexpr std::uint64_t kPoints = 60'000;
+const char* const kScenes[] = {"city", "terrain", "forest", "interior", "corridor"};
+
+TEST_P(EachMethod, ConvergesToBruteForceOnEveryScene) {
+  for (const char* name : kScenes) {
+    const Dataset& dataset = scene(name, kPoints);
+    const auto drawn = method(dataset);
+    for (const char* camera : {"oblique", "low"}) {
+      const View view = view_of(dataset, camera);
+      EXPECT_TRUE(same_picture(converged_picture(*drawn, rasterizer(), dataset.points.grid, view, 20'000),
+                               brute_force_picture(dataset.points, rasterizer(), view)))
+          << name << " " << camera;
+    }
+  }
+}
+
+TEST_P(EachMethod, ConvergesToBruteForceForAnyBudgetAndSeed) {
+  const Dataset& dataset = scene("city", kPoints);
+  const View view = view_of(dataset, "oblique");
+  const FrameData expected = brute_force_picture(dataset.points, rasterizer(), view);
+  for (const std::uint32_t budget : {4'999u, 7'001u, 59'999u, 60'000u, 1'000'000u})
+    for (const std::uint64_t seed : {0ull, 12345678901234567ull})
+      EXPECT_TRUE(same_picture(
+          converged_picture(*method(dataset, seed), rasterizer(), dataset.points.grid, view, budget), expected))
+          << budget << " " << seed;
+}
+
+TEST_P(EachMethod, ConvergesToBruteForceWithSplats) {
+  const Dataset& dataset = scene("forest", kPoints);
+  const View view = view_of(dataset, "oblique");
+  EXPECT_TRUE(same_picture(converged_picture(*method(dataset), rasterizer(), dataset.points.grid, view, 20'000, 2.0),
+                           brute_force_picture(dataset.points, rasterizer(), view, 2.0)));
+}
+
+TEST_P(EachMethod, ConvergesToBruteForceAfterTheCameraMoved) {
+  const Dataset& dataset = scene("city", kPoints);
+  const auto moved = method(dataset);
+  ProgressiveRenderer renderer(*moved, rasterizer(), dataset.points.grid);
+  const View start = view_of(dataset, "oblique");
+  View view = start;
+  for (int frame = 0; frame < 12; ++frame) {
+    view.eye = start.eye + start.right * (5.0 * frame) + start.forward * (9.0 * frame);
+    renderer.draw(view, 3'000);
+  }
+  while (!renderer.draw(view, 11'000).converged) {
+  }
+  EXPECT_TRUE(same_picture(renderer.read(), brute_force_picture(dataset.points, rasterizer(), view)));
+}
+
+TEST_P(EachMethod, StillFramesWithoutFillChangeNothing) {
+  const Dataset& dataset = scene("city", kPoints);
+  const View view = view_of(dataset, "oblique");
+  const auto partly = method(dataset);
+  ProgressiveRenderer renderer(*partly, rasterizer(), dataset.points.grid);
+  for (int frame = 0; frame < 3; ++frame) renderer.draw(view, 5'000);
+  const FrameData before = renderer.read();
+  ASSERT_GT(before.covered_pixels(), 1'000u);
+  for (int frame = 0; frame < 10; ++frame) EXPECT_EQ(renderer.draw(view, 0).points_filled, 0u);
+  EXPECT_TRUE(same_picture(renderer.read(), before));
+}
+
+TEST_P(EachMethod, DrawsNoMoreThanItsBudget) {
+  const Dataset& dataset = scene("city", kPoints);
+  const auto drawn = method(dataset);
+  ProgressiveRenderer renderer(*drawn, rasterizer(), dataset.points.grid);
+  const View view = view_of(dataset, "low");
+  for (const std::uint32_t budget : {1u, 2u, 77u, 10'000u}) EXPECT_LE(renderer.draw(view, budget).points_filled, budget);
+}
+
+TEST_P(EachMethod, DrawsEachPointAtMostOnceForAStillView) {
+  const Dataset& dataset = scene("city", kPoints);
+  const auto drawn = method(dataset);
+  ProgressiveRenderer renderer(*drawn, rasterizer(), dataset.points.grid);
+  std::uint64_t filled = 0;
+  for (FrameReport report; !report.converged;) {
+    report = renderer.draw(view_of(dataset, "oblique"), 7'000);
+    filled += report.points_filled;
+  }
+  EXPECT_LE(filled, kPoints);
+}
+
+TEST_P(EachMethod, AnEmptyCloudConvergesToAnEmptyPicture) {
+  const PointSet nothing = points_at({});
+  const Octree no_tree;
+  const auto drawn = make_method(mode(), nothing, &no_tree);
+  EXPECT_EQ(converged_picture(*drawn, rasterizer(), nothing.grid, front_view(2.0), 1000).covered_pixels(), 0u);
+}
+
+TEST_P(EachMethod, ConvergesToBruteForceOnRealFiles) {
+  const std::filesystem::path data = STIPPLE_SHARED_DATA;
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is missing: real files are not tested";
+  for (const char* file : {"PDAL+PDAL/las/autzen_trim_7.las", "laspy+laspy/data/simple1_4.las",
+                           "PDAL+PDAL/las/sample_c.las", "PDAL+PDAL/autzen/autzen-dd.las", "PDAL+PDAL/las/interesting.las",
+                           "libLAS+libLAS/data/certainty3d-color-utm-feet-navd88.las", "libLAS+libLAS/data/1.2_1.las",
+                           "PDAL+PDAL/las/epsg_4326.las"}) {
+    const Dataset dataset = load_dataset(*open_source(data / file), "", true);
+    const View view = view_of(dataset, "oblique");
+    EXPECT_TRUE(same_picture(converged_picture(*method(dataset), rasterizer(), dataset.points.grid, view, 30'011),
+                             brute_force_picture(dataset.points, rasterizer(), view)))
+        << file;
+  }
+}
+
+}  // namespace
+}  // namespace stipple::test

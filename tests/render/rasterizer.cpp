@@ -1,0 +1,147 @@
+// Both rasterizers against each other, themselves and the reference.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "render/method/brute_force.h"
+#include "render/method/progressive_renderer.h"
+#include "render/reference/reference.h"
+#include "tests/render/gl_test.h"
+
+namespace stipple::test {
+namespace {
+
+class EachRasterizer : public testing::TestWithParam<RasterizerKind> {
+ protected:
+  FrameData draw(const PointSet& points, const View& view, double point_size = 1.0) const {
+    return brute_force_picture(points, GetParam(), view, point_size);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Rasterizers, EachRasterizer, testing::Values(RasterizerKind::points, RasterizerKind::compute),
+                         [](const auto& param) { return std::string(name_of(param.param)); });
+
+// The same points in another order, keeping their ids.
+PointSet in_other_order(const PointSet& points, std::uint32_t seed) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+  PointSet shuffled = points;
+  shuffled.ids.assign(order.begin(), order.end());
+  for (std::size_t i = 0; i < order.size(); ++i) shuffled.points[i] = points.points[order[i]];
+  return shuffled;
+}
+
+TEST_P(EachRasterizer, DrawsAPointWhereTheReferenceDoes) {
+  const PointSet points = points_at({{500, 0, 250}});
+  const View view = front_view(2.0);
+  const FrameData frame = draw(points, view);
+  EXPECT_EQ(frame.covered_pixels(), 1u);
+  EXPECT_TRUE(std::ranges::equal(frame.ids, render_reference(points, view).ids));
+}
+
+TEST_P(EachRasterizer, NearestPointWinsThePixel) {
+  const PointSet points = points_at({{6, 100, 6}, {6, -100, 6}, {6, 0, 6}});
+  const FrameData frame = draw(points, front_view(2.0));
+  EXPECT_EQ(frame.covered_pixels(), 1u);
+  EXPECT_EQ(frame.ids[static_cast<std::size_t>(89 * 320 + 160)], 1u);
+}
+
+TEST_P(EachRasterizer, PointZeroIsAPoint) {
+  const FrameData frame = draw(points_at({{0, 0, 0}}), front_view(2.0));
+  EXPECT_EQ(std::ranges::count(frame.ids, 0u), 1);
+}
+
+TEST_P(EachRasterizer, NothingBehindTheEyeOrBeforeTheNearPlaneIsDrawn) {
+  const PointSet points = points_at({{0, -2001, 0}, {0, -3000, 0}, {0, -2000, 0}});
+  EXPECT_EQ(draw(points, front_view(2.0)).covered_pixels(), 0u);
+}
+
+TEST_P(EachRasterizer, TheOrderOfDrawingChangesNothing) {
+  const PointSet points = random_points(60'000, 700, 1);
+  const View view = front_view(3.0);
+  const FrameData expected = draw(points, view);
+  for (std::uint32_t seed = 1; seed <= 3; ++seed) EXPECT_TRUE(same_picture(draw(in_other_order(points, seed), view), expected));
+}
+
+TEST_P(EachRasterizer, TheOrderOfDrawingChangesNothingWithSplats) {
+  const PointSet points = random_points(5'000, 700, 2);
+  const View view = front_view(3.0);
+  const FrameData expected = draw(points, view, 3.0);
+  EXPECT_TRUE(same_picture(draw(in_other_order(points, 1), view, 3.0), expected));
+}
+
+TEST_P(EachRasterizer, TiesGoToTheLowestIdEvenWhenThereAreMoreThanNotes) {
+  // 200,000 points in four places, highest ids first: every arrival improves on the one before
+  std::vector<glm::ivec3> positions;
+  for (int i = 0; i < 200'000; ++i) positions.push_back({(i % 4) * 100, 0, 0});
+  PointSet points = points_at(positions);
+  points.ids.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points.ids[i] = static_cast<std::uint32_t>(points.size() - 1 - i);
+  const FrameData frame = draw(points, front_view(2.0));
+  ASSERT_EQ(frame.covered_pixels(), 4u);
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    if (frame.ids[i] == kNoPoint) continue;
+    EXPECT_LT(frame.ids[i], 4u);
+    const PackedPoint& winner = points.points[points.size() - 1 - frame.ids[i]];
+    EXPECT_EQ(frame.positions[i], winner.position);
+    EXPECT_EQ(frame.rgba[i], winner.rgba);
+  }
+}
+
+TEST_P(EachRasterizer, SplatsCoverTheirSquare) {
+  EXPECT_EQ(draw(points_at({{0, 0, 0}}), front_view(2.0), 4.0).covered_pixels(), 16u);
+}
+
+TEST_P(EachRasterizer, PositionsAtTheEndsOfInt32AreDrawnWhereTheyAre) {
+  constexpr int kLow = std::numeric_limits<int>::min();
+  constexpr int kHigh = std::numeric_limits<int>::max();
+  const PointSet points = points_at({{kLow, kHigh, kLow}, {kHigh, kHigh, kHigh}, {kLow, kHigh, kHigh}, {777'777, kHigh, 777'777}});
+  // The eye at the lower end: the differences take 33 bits
+  const Camera camera{.eye = {1234.5, -2.2e6, 987.6}, .target = {0.0, 0.0, 0.0}, .fov_deg = 100};
+  const View view = make_view(camera, {320, 320}, 0.001);
+  const FrameData frame = draw(points, view);
+  EXPECT_EQ(frame.covered_pixels(), 4u);
+  EXPECT_TRUE(std::ranges::equal(frame.ids, render_reference(points, view).ids));
+}
+
+// Whether the place of point `id`, computed in double precision, is outside of the pixel or so near its border that
+// single precision may have seen it outside.
+bool may_be_next_door(const PointSet& by_id, const View& view, std::uint32_t id, int x, int y) {
+  constexpr double kMargin = 1e-3;
+  if (id == kNoPoint) return false;
+  const glm::dvec3 r = by_id.grid.world_from_grid(by_id.points[id].position) - view.eye;
+  const double depth = glm::dot(view.forward, r);
+  const double px = 0.5 * view.size.x * (1.0 + glm::dot(view.right, r) * view.cot_x / depth);
+  const double py = 0.5 * view.size.y * (1.0 - glm::dot(view.up, r) * view.cot_y / depth);
+  return px < x + kMargin || px > x + 1 - kMargin || py < y + kMargin || py > y + 1 - kMargin;
+}
+
+TEST(ComputeRasterizer, DiffersFromTheReferenceInAThousandthOfThePixelsAndOnlyByRounding) {
+  for (const char* name : {"city", "terrain", "forest", "interior", "corridor"}) {
+    const Dataset& dataset = scene(name, 300'000);
+    const View view = view_of(dataset, "oblique", {640, 360});
+    const FrameData frame = brute_force_picture(dataset.points, RasterizerKind::compute, view);
+    const FrameData reference = render_reference(dataset.points, view);
+    PointSet by_id = dataset.points;
+    for (std::size_t i = 0; i < by_id.size(); ++i) by_id.points[dataset.points.id(i)] = dataset.points.points[i];
+
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < frame.pixels(); ++i) {
+      if (frame.ids[i] == reference.ids[i]) continue;
+      ++different;
+      const int x = static_cast<int>(i) % view.size.x;
+      const int y = static_cast<int>(i) / view.size.x;
+      const bool same_depth = std::abs(frame.depth[i] - reference.depth[i]) <= 1e-6f * reference.depth[i];
+      EXPECT_TRUE(same_depth || may_be_next_door(by_id, view, frame.ids[i], x, y) ||
+                  may_be_next_door(by_id, view, reference.ids[i], x, y))
+          << name << " pixel " << x << "," << y;
+    }
+    EXPECT_LE(static_cast<double>(different), 0.001 * static_cast<double>(frame.pixels())) << name;
+    std::printf("%s: %zu of %zu pixels differ\n", name, different, frame.pixels());
+  }
+}
+
+}  // namespace
+}  // namespace stipple::test
