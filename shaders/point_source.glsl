@@ -2,6 +2,7 @@
 //   SOURCE_RANGE    consecutive points of a buffer (fill)
 //   SOURCE_VERTICES points collected from the last frame, counted on the GPU (reproject as S19)
 //   SOURCE_GRID     the last frame itself, a point a pixel (reproject as T16)
+// A PointIndex names one of them: a number, or a pixel, because dividing numbers costs more than all the rest.
 #include "packing.glsl"
 
 #ifdef SOURCE_GRID
@@ -9,10 +10,10 @@
 layout(binding = 0) uniform isampler2D previous_points;
 layout(binding = 1) uniform usampler2D previous_ids;
 
-bool fetch_point(uint i, out ivec4 point, out uint id) {
-  ivec2 size = textureSize(previous_ids, 0);
-  ivec2 pixel = ivec2(i % uint(size.x), i / uint(size.x));
-  if (pixel.y >= size.y) return false;
+#define PointIndex ivec2
+
+bool fetch_point(ivec2 pixel, out ivec4 point, out uint id) {
+  if (any(greaterThanEqual(pixel, textureSize(previous_ids, 0)))) return false;
   id = texelFetch(previous_ids, pixel, 0).x;
   if (id == kNoPoint) return false;
   point = texelFetch(previous_points, pixel, 0);
@@ -20,6 +21,8 @@ bool fetch_point(uint i, out ivec4 point, out uint id) {
 }
 
 #else
+
+#define PointIndex uint
 
 layout(std430, binding = 0) readonly buffer SourcePoints { ivec4 source_points[]; };
 layout(std430, binding = 1) readonly buffer SourceIds { uint source_ids[]; };

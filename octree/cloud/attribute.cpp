@@ -15,16 +15,26 @@ double load(const std::byte* at) {
 
 double load(ScalarType type, const std::byte* at) {
   switch (type) {
-    case ScalarType::u8: return load<std::uint8_t>(at);
-    case ScalarType::i8: return load<std::int8_t>(at);
-    case ScalarType::u16: return load<std::uint16_t>(at);
-    case ScalarType::i16: return load<std::int16_t>(at);
-    case ScalarType::u32: return load<std::uint32_t>(at);
-    case ScalarType::i32: return load<std::int32_t>(at);
-    case ScalarType::u64: return load<std::uint64_t>(at);
-    case ScalarType::i64: return load<std::int64_t>(at);
-    case ScalarType::f32: return load<float>(at);
-    case ScalarType::f64: return load<double>(at);
+    case ScalarType::u8:
+      return load<std::uint8_t>(at);
+    case ScalarType::i8:
+      return load<std::int8_t>(at);
+    case ScalarType::u16:
+      return load<std::uint16_t>(at);
+    case ScalarType::i16:
+      return load<std::int16_t>(at);
+    case ScalarType::u32:
+      return load<std::uint32_t>(at);
+    case ScalarType::i32:
+      return load<std::int32_t>(at);
+    case ScalarType::u64:
+      return load<std::uint64_t>(at);
+    case ScalarType::i64:
+      return load<std::int64_t>(at);
+    case ScalarType::f32:
+      return load<float>(at);
+    case ScalarType::f64:
+      return load<double>(at);
   }
   return 0.0;
 }
@@ -34,15 +44,19 @@ double load(ScalarType type, const std::byte* at) {
 std::size_t size_of(ScalarType type) {
   switch (type) {
     case ScalarType::u8:
-    case ScalarType::i8: return 1;
+    case ScalarType::i8:
+      return 1;
     case ScalarType::u16:
-    case ScalarType::i16: return 2;
+    case ScalarType::i16:
+      return 2;
     case ScalarType::u32:
     case ScalarType::i32:
-    case ScalarType::f32: return 4;
+    case ScalarType::f32:
+      return 4;
     case ScalarType::u64:
     case ScalarType::i64:
-    case ScalarType::f64: return 8;
+    case ScalarType::f64:
+      return 8;
   }
   return 0;
 }

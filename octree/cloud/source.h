@@ -21,7 +21,7 @@ struct SourceInfo {
   std::string encoding;  // "point format 7, 36 bytes a point"
   std::uint64_t point_count = 0;
   Grid grid;
-  Schema schema;         // everything a point carries beside its position
+  Schema schema;           // everything a point carries beside its position
   WorldBox stated_bounds;  // what the header says; empty when it says nothing. Headers lie: see Cloud::bounds
   std::vector<std::string> warnings;  // oddities that lose no point, in sentences
 };

@@ -13,8 +13,8 @@ namespace stipple {
 // commit(), it leaves nothing behind, and a file that was at `path` before stays as it was.
 class OutputFile {
  public:
-  // Throws Error when the folder does not exist or may not be written to, or when `path` is a folder, device or pipe: those
-  // cannot be replaced.
+  // Throws Error when the folder does not exist or may not be written to, or when `path` is a folder, device or pipe:
+  // those cannot be replaced.
   explicit OutputFile(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;

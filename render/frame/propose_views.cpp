@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <limits>
 
 namespace stipple {
 namespace {
 
 constexpr double kFovDeg = 60.0;
 
-// At most 200,000 points, evenly through the set, in world coordinates.
+// At most 200,000 points in world coordinates, chosen by id: the same ones in whatever order the points stand, so that
+// all methods propose the same cameras.
 std::vector<glm::dvec3> sample_of(const PointSet& set) {
   const std::size_t step = std::max<std::size_t>(1, set.size() / 200'000);
   std::vector<glm::dvec3> sample;
-  for (std::size_t i = 0; i < set.size(); i += step) sample.push_back(set.grid.world_from_grid(set.points[i].position));
+  for (std::size_t i = 0; i < set.size(); ++i)
+    if (set.id(i) % step == 0) sample.push_back(set.grid.world_from_grid(set.points[i].position));
   return sample;
 }
 
@@ -37,27 +39,63 @@ WorldBox robust_box(const std::vector<glm::dvec3>& sample) {
   return box;
 }
 
-// Looks at the middle of the box from this azimuth and elevation, just far enough to see all its corners.
+using Corners = std::array<glm::dvec3, 8>;  // across (x, y), already times cot, and forward (z), relative to the middle
+
+// Where across an eye `ahead` of the middle must stand so that the corners reach equally far to both sides of its
+// picture, along x (axis 0) or y (axis 1); in units of across.
+double centred(const Corners& corners, double ahead, int axis) {
+  double low = corners[0][axis];
+  double high = low;
+  for (const glm::dvec3& corner : corners) {
+    low = std::min(low, corner[axis]);
+    high = std::max(high, corner[axis]);
+  }
+  // The sum of the two ends in the picture falls as the eye moves up
+  for (int step = 0; step < 60; ++step) {
+    const double place = 0.5 * (low + high);
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (const glm::dvec3& corner : corners) {
+      const double in_picture = (corner[axis] - place) / (corner.z - ahead);
+      least = std::min(least, in_picture);
+      most = std::max(most, in_picture);
+    }
+    (least + most > 0.0 ? low : high) = place;
+  }
+  return 0.5 * (low + high);
+}
+
+// Looks at the box from this azimuth and elevation, so near that its corners touch the borders of the picture, centred.
+// A corner is in the picture of an eye while |corner across - eye across| <= corner forward - eye forward: two bounds
+// on eye forward plus and minus eye across. The eye goes as far forward as all allow.
 Camera looking_at(const WorldBox& box, double azimuth_deg, double elevation_deg, double aspect) {
   const double azimuth = glm::radians(azimuth_deg);
   const double elevation = glm::radians(elevation_deg);
-  const glm::dvec3 back(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                        std::sin(elevation));
+  const glm::dvec3 forward(-std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth),
+                           -std::sin(elevation));
+  const glm::dvec3 middle = 0.5 * (box.min + box.max);
+  const View view = make_view({.eye = middle - forward, .target = middle, .fov_deg = kFovDeg},
+                              {1000, std::max(1, static_cast<int>(1000.0 / aspect))}, 1.0);
+
+  constexpr double kMargin = 1.03;
+  Corners corners;
+  glm::dvec2 plus(std::numeric_limits<double>::infinity());
+  glm::dvec2 minus = plus;
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const glm::dvec3 r =
+        0.5 * kMargin * (box.max - box.min) * glm::dvec3(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1);
+    corners[c] = {glm::dot(view.right, r) * view.cot_x, glm::dot(view.up, r) * view.cot_y, glm::dot(forward, r)};
+    plus = glm::min(plus, corners[c].z + glm::dvec2(corners[c]));
+    minus = glm::min(minus, corners[c].z - glm::dvec2(corners[c]));
+  }
+  double ahead = 0.5 * std::min(plus.x + minus.x, plus.y + minus.y);
+  if (!(ahead < 0.0)) ahead = -1.0;  // a box without extent
+
   Camera camera;
   camera.fov_deg = kFovDeg;
-  camera.target = 0.5 * (box.min + box.max);
-  camera.eye = camera.target + back;
-  const View view = make_view(camera, {1000, std::max(1, static_cast<int>(1000.0 / aspect))}, 1.0);
-  double distance = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                       corner & 4 ? box.max.z : box.min.z);
-    const glm::dvec3 r = p - camera.target;
-    const double needed = std::max(std::abs(glm::dot(view.right, r)) * view.cot_x, std::abs(glm::dot(view.up, r)) * view.cot_y);
-    distance = std::max(distance, needed - glm::dot(view.forward, r));
-  }
-  constexpr double kMargin = 1.02;
-  camera.eye = camera.target + back * (distance > 0.0 ? kMargin * distance : 1.0);
+  camera.target = middle + view.right * (centred(corners, ahead, 0) / view.cot_x) +
+                  view.up * (centred(corners, ahead, 1) / view.cot_y);
+  camera.eye = camera.target + forward * ahead;
   return camera;
 }
 
@@ -70,7 +108,8 @@ Camera low_over(const WorldBox& box, const std::vector<glm::dvec3>& sample) {
   camera.eye = {box.min.x + 0.25 * extent.x, box.min.y + 0.25 * extent.y, box.min.z};
   double top = box.min.z;
   for (const glm::dvec3& p : sample)
-    if (glm::distance(glm::dvec2(p), glm::dvec2(camera.eye)) < 0.03 * width && p.z <= box.max.z) top = std::max(top, p.z);
+    if (glm::distance(glm::dvec2(p), glm::dvec2(camera.eye)) < 0.03 * width && p.z <= box.max.z)
+      top = std::max(top, p.z);
   camera.eye.z = top + 0.02 * width;
   camera.target = {box.max.x - 0.4 * extent.x, box.max.y - 0.4 * extent.y, box.min.z + 0.2 * extent.z};
   if (camera.eye == camera.target) camera.target.y += 1.0;

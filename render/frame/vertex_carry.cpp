@@ -16,17 +16,17 @@ std::size_t checked_pixels(const glm::ivec2& size) {
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   const std::size_t bytes = pixels_of(size) * sizeof(PackedPoint);
   if (bytes > static_cast<std::size_t>(limit))
-    throw Error(fmt::format("a picture of {}x{} pixels needs {} bytes for carried vertices; this driver's shaders reach "
-                            "{}. Draw a smaller picture.",
-                            size.x, size.y, bytes, limit));
+    throw Error(
+        fmt::format("a picture of {}x{} pixels needs {} bytes for carried vertices; this driver's shaders reach "
+                    "{}. Draw a smaller picture.",
+                    size.x, size.y, bytes, limit));
   return pixels_of(size);
 }
 
-// One invocation a pixel, in the groups of 16 x 8 of prepare.glsl and count_covered.glsl.
-void dispatch_pixels(const FeedbackTarget& frame) {
+void dispatch_pixels_of(const FeedbackTarget& frame) {
   frame.points().bind(0);
   frame.ids().bind(1);
-  glDispatchCompute(static_cast<GLuint>(frame.size().x + 15) / 16, static_cast<GLuint>(frame.size().y + 7) / 8, 1);
+  dispatch_pixels(frame.size());
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ void VertexCarry::prepare(const FeedbackTarget& frame) {
   ids_.bind_storage(1);
   command_.bind_storage(2);
   prepare_.use();
-  dispatch_pixels(frame);
+  dispatch_pixels_of(frame);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   finish_.use();
   glUniform1ui(0, kRasterGroupSize);
@@ -60,7 +60,7 @@ std::uint32_t CoverageCounter::count(const FeedbackTarget& frame) {
   counter_.fill(0);
   counter_.bind_storage(0);
   program_.use();
-  dispatch_pixels(frame);
+  dispatch_pixels_of(frame);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   std::uint32_t covered = 0;
   counter_.read(0, &covered, sizeof covered);

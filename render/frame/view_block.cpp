@@ -5,9 +5,9 @@
 namespace stipple {
 
 ViewBlock make_view_block(const View& view, const Grid& grid, double point_size) {
-  const glm::dvec3 cell = glm::clamp(glm::floor(grid.grid_from_world(view.eye)),
-                                     glm::dvec3(std::numeric_limits<std::int32_t>::min()),
-                                     glm::dvec3(std::numeric_limits<std::int32_t>::max()));
+  const glm::dvec3 cell =
+      glm::clamp(glm::floor(grid.grid_from_world(view.eye)), glm::dvec3(std::numeric_limits<std::int32_t>::min()),
+                 glm::dvec3(std::numeric_limits<std::int32_t>::max()));
   const glm::ivec3 eye_cell(cell);
   ViewBlock block;
   block.eye_half = glm::ivec4(eye_cell >> 1, 0);

@@ -53,7 +53,8 @@ std::vector<Candidate> candidates() {
   return all;
 }
 
-void GLAPIENTRY report(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message, const void* fatal) {
+void GLAPIENTRY report(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message,
+                       const void* fatal) {
   if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH) return;
   std::fprintf(stderr, "stipple: OpenGL: %s\n", message);
   if (fatal) std::abort();
@@ -92,9 +93,15 @@ struct HeadlessContext::Egl {
     if (egl_string(display, EGL_EXTENSIONS).find("EGL_KHR_surfaceless_context") == std::string_view::npos)
       return "cannot draw without a surface (EGL_KHR_surfaceless_context is missing)";
     if (!eglBindAPI(EGL_OPENGL_API)) return "has no desktop OpenGL";
-    const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                           EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                           EGL_CONTEXT_OPENGL_DEBUG, debug ? EGL_TRUE : EGL_FALSE, EGL_NONE};
+    const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                           4,
+                                           EGL_CONTEXT_MINOR_VERSION,
+                                           5,
+                                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                           EGL_CONTEXT_OPENGL_DEBUG,
+                                           debug ? EGL_TRUE : EGL_FALSE,
+                                           EGL_NONE};
     context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
     if (context == EGL_NO_CONTEXT) return fmt::format("has no OpenGL 4.5 core (EGL error 0x{:04x})", eglGetError());
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
@@ -116,9 +123,10 @@ HeadlessContext::HeadlessContext(const ContextOptions& options) {
     egl_.reset();
   }
   if (!egl_)
-    throw Error(fmt::format("no OpenGL 4.5 core context without a window could be made. Tried:{}\nInstall a driver: on "
-                            "Debian, `apt install libegl1 libgl1-mesa-dri` gives one that runs on the CPU.",
-                            failures));
+    throw Error(
+        fmt::format("no OpenGL 4.5 core context without a window could be made. Tried:{}\nInstall a driver: on "
+                    "Debian, `apt install libegl1 libgl1-mesa-dri` gives one that runs on the CPU.",
+                    failures));
   renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   version_ = reinterpret_cast<const char*>(glGetString(GL_VERSION));
   set_defaults(options);

@@ -29,12 +29,24 @@ class Handle {
 };
 
 namespace gl_delete {
-inline void buffer(GLuint name) { glDeleteBuffers(1, &name); }
-inline void texture(GLuint name) { glDeleteTextures(1, &name); }
-inline void framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
-inline void vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
-inline void shader(GLuint name) { glDeleteShader(name); }
-inline void program(GLuint name) { glDeleteProgram(name); }
+inline void buffer(GLuint name) {
+  glDeleteBuffers(1, &name);
+}
+inline void texture(GLuint name) {
+  glDeleteTextures(1, &name);
+}
+inline void framebuffer(GLuint name) {
+  glDeleteFramebuffers(1, &name);
+}
+inline void vertex_array(GLuint name) {
+  glDeleteVertexArrays(1, &name);
+}
+inline void shader(GLuint name) {
+  glDeleteShader(name);
+}
+inline void program(GLuint name) {
+  glDeleteProgram(name);
+}
 }  // namespace gl_delete
 
 }  // namespace stipple

@@ -70,4 +70,8 @@ void dispatch_items(std::size_t items, std::size_t group_size) {
   glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
 }
 
+void dispatch_pixels(const glm::ivec2& size) {
+  glDispatchCompute(static_cast<GLuint>(size.x + 15) / 16, static_cast<GLuint>(size.y + 7) / 8, 1);
+}
+
 }  // namespace stipple

@@ -1,6 +1,7 @@
 // Shader programs.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <string_view>
 #include <vector>
 
@@ -29,5 +30,8 @@ class Program {
 // Runs the program in use on at least `items` invocations of work groups of `group_size`, folding the groups into two
 // dimensions where one is not enough (the least every driver gives is 65535 groups).
 void dispatch_items(std::size_t items, std::size_t group_size);
+
+// Runs the program in use on every pixel of a picture, in work groups of 16 x 8.
+void dispatch_pixels(const glm::ivec2& size);
 
 }  // namespace stipple

@@ -14,8 +14,8 @@ static_assert(std::endian::native == std::endian::little);
 
 // NEP 1: magic, version, length of the header, header padded with spaces so that the data start at a multiple of 64.
 std::string header_of(std::string_view type, const std::vector<std::size_t>& shape) {
-  std::string dictionary = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({},), }}", type,
-                                       fmt::join(shape, ", "));
+  std::string dictionary =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({},), }}", type, fmt::join(shape, ", "));
   constexpr std::size_t kPreamble = 10;
   dictionary.append(63 - (kPreamble + dictionary.size()) % 64, ' ');
   dictionary += '\n';

@@ -14,13 +14,18 @@ constexpr std::array kModes{Mode::brute_force, Mode::hierarchical, Mode::unstruc
 
 }  // namespace
 
-std::span<const Mode> all_modes() { return kModes; }
+std::span<const Mode> all_modes() {
+  return kModes;
+}
 
 std::string_view name_of(Mode mode) {
   switch (mode) {
-    case Mode::brute_force: return "brute-force";
-    case Mode::hierarchical: return "hierarchical";
-    case Mode::unstructured: return "unstructured";
+    case Mode::brute_force:
+      return "brute-force";
+    case Mode::hierarchical:
+      return "hierarchical";
+    case Mode::unstructured:
+      return "unstructured";
   }
   return "";
 }
@@ -31,16 +36,20 @@ std::optional<Mode> mode_named(std::string_view name) {
   return std::nullopt;
 }
 
-bool needs_octree(Mode mode) { return mode == Mode::hierarchical; }
+bool needs_octree(Mode mode) {
+  return mode == Mode::hierarchical;
+}
 
 std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Octree* octree,
                                     const MethodOptions& options) {
   switch (mode) {
-    case Mode::brute_force: return std::make_unique<BruteForce>(points);
+    case Mode::brute_force:
+      return std::make_unique<BruteForce>(points);
     case Mode::hierarchical:
       if (!octree) throw Error("mode hierarchical needs an octree");
       return std::make_unique<Hierarchical>(points, *octree, options.largest_budget);
-    case Mode::unstructured: return std::make_unique<Unstructured>(points, options.seed);
+    case Mode::unstructured:
+      return std::make_unique<Unstructured>(points, options.seed);
   }
   return nullptr;
 }

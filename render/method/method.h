@@ -58,7 +58,7 @@ std::optional<Mode> mode_named(std::string_view name);
 bool needs_octree(Mode mode);
 
 struct MethodOptions {
-  std::uint64_t seed = 0;                 // of the shuffle
+  std::uint64_t seed = 0;                  // of the shuffle
   std::uint32_t largest_budget = 1 << 20;  // points select() may be asked for
 };
 

@@ -3,7 +3,10 @@
 namespace stipple {
 
 ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, double point_size)
-    : method_(method), rasterizer_(make_rasterizer(rasterizer)), grid_(grid), point_size_(point_size) {}
+    : method_(method),
+      rasterizer_(make_rasterizer(rasterizer, point_size != 1.0)),
+      grid_(grid),
+      point_size_(point_size) {}
 
 void ProgressiveRenderer::resize(const glm::ivec2& size) {
   for (auto& target : targets_) target.emplace(size, rasterizer_->depth_storage());
@@ -12,9 +15,14 @@ void ProgressiveRenderer::resize(const glm::ivec2& size) {
 
 void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
   switch (method_.carry()) {
-    case Carry::none: break;
-    case Carry::grid: items.push_back(CarriedGrid{&previous()}); break;
-    case Carry::vertices: items.push_back(vertices_->vertices()); break;
+    case Carry::none:
+      break;
+    case Carry::grid:
+      items.push_back(CarriedGrid{&previous()});
+      break;
+    case Carry::vertices:
+      items.push_back(vertices_->vertices());
+      break;
   }
 }
 
@@ -57,9 +65,13 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   return {selection.points, method_.finished()};
 }
 
-FrameData ProgressiveRenderer::read() { return current().read(view_.near); }
+FrameData ProgressiveRenderer::read() {
+  return current().read(view_.near);
+}
 
-std::uint64_t ProgressiveRenderer::covered_pixels() { return coverage_.count(current()); }
+std::uint64_t ProgressiveRenderer::covered_pixels() {
+  return coverage_.count(current());
+}
 
 std::uint64_t ProgressiveRenderer::points_reprojected() {
   return method_.carry() == Carry::none ? 0 : coverage_.count(previous());

@@ -5,7 +5,13 @@
 namespace stipple {
 namespace {
 
-Program compile(const std::vector<ShaderDefine>& defines) { return Program::compute("raster_compute.glsl", defines); }
+// Compiles the variants of a pass.
+auto compiler(bool splats) {
+  return [splats](std::vector<ShaderDefine> defines) {
+    if (splats) defines.push_back({"SPLATS"});
+    return Program::compute("raster_compute.glsl", defines);
+  };
+}
 
 void run_pass(const SourcePrograms& programs, std::span<const DrawItem> items) {
   for (const DrawItem& item : items) {
@@ -13,16 +19,20 @@ void run_pass(const SourcePrograms& programs, std::span<const DrawItem> items) {
     if (const auto* vertices = std::get_if<CarriedVertices>(&item)) {
       glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, vertices->command->name());
       glDispatchComputeIndirect(offsetof(CarriedCommand, groups_x));
+    } else if (const auto* grid = std::get_if<CarriedGrid>(&item)) {
+      dispatch_pixels(grid->previous->size());
     } else {
-      dispatch_items(item_capacity(item), kRasterGroupSize);
+      dispatch_items(std::get<PointRange>(item).count, kRasterGroupSize);
     }
   }
 }
 
 }  // namespace
 
-ComputeRasterizer::ComputeRasterizer()
-    : depth_("PASS_DEPTH", compile), claim_("PASS_CLAIM", compile), repeat_("PASS_REPEAT", compile) {}
+ComputeRasterizer::ComputeRasterizer(bool splats)
+    : depth_("PASS_DEPTH", compiler(splats)),
+      claim_("PASS_CLAIM", compiler(splats)),
+      repeat_("PASS_REPEAT", compiler(splats)) {}
 
 void ComputeRasterizer::draw(FeedbackTarget& target, std::span<const DrawItem> items) {
   constexpr GLbitfield kPixels = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;

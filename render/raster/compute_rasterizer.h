@@ -8,7 +8,8 @@ namespace stipple {
 
 class ComputeRasterizer final : public Rasterizer {
  public:
-  ComputeRasterizer();
+  // `splats`: points may be larger than a pixel.
+  explicit ComputeRasterizer(bool splats);
   DepthStorage depth_storage() const override { return DepthStorage::image; }
   void draw(FeedbackTarget& target, std::span<const DrawItem> items) override;
 

@@ -15,6 +15,8 @@ void run_pass(const SourcePrograms& programs, std::span<const DrawItem> items) {
     if (const auto* vertices = std::get_if<CarriedVertices>(&item)) {
       glBindBuffer(GL_DRAW_INDIRECT_BUFFER, vertices->command->name());
       glDrawArraysIndirect(GL_POINTS, nullptr);
+    } else if (const auto* grid = std::get_if<CarriedGrid>(&item)) {
+      glDrawArraysInstanced(GL_POINTS, 0, grid->previous->size().x, grid->previous->size().y);
     } else {
       glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(item_capacity(item)));
     }

@@ -12,12 +12,14 @@ constexpr std::array kKinds{RasterizerKind::points, RasterizerKind::compute};
 
 }  // namespace
 
-std::unique_ptr<Rasterizer> make_rasterizer(RasterizerKind kind) {
+std::unique_ptr<Rasterizer> make_rasterizer(RasterizerKind kind, bool splats) {
   if (kind == RasterizerKind::points) return std::make_unique<PointsRasterizer>();
-  return std::make_unique<ComputeRasterizer>();
+  return std::make_unique<ComputeRasterizer>(splats);
 }
 
-std::string_view name_of(RasterizerKind kind) { return kind == RasterizerKind::points ? "points" : "compute"; }
+std::string_view name_of(RasterizerKind kind) {
+  return kind == RasterizerKind::points ? "points" : "compute";
+}
 
 std::optional<RasterizerKind> rasterizer_named(std::string_view name) {
   for (const RasterizerKind kind : kKinds)

@@ -56,7 +56,8 @@ class Rasterizer {
   virtual void draw(FeedbackTarget& target, std::span<const DrawItem> items) = 0;
 };
 
-std::unique_ptr<Rasterizer> make_rasterizer(RasterizerKind kind);
+// `splats`: the point size of the view block may differ from 1.
+std::unique_ptr<Rasterizer> make_rasterizer(RasterizerKind kind, bool splats);
 
 // "points", "compute".
 std::string_view name_of(RasterizerKind kind);

@@ -40,8 +40,7 @@ void SourcePrograms::use_for(const DrawItem& item) const {
   std::visit([](const auto& each) { bind(each); }, item);
 }
 
-TieNotes::TieNotes()
-    : buffer_(kHeaderBytes + kNotes * kNoteBytes), settle_(Program::compute("settle_ties.glsl")) {}
+TieNotes::TieNotes() : buffer_(kHeaderBytes + kNotes * kNoteBytes), settle_(Program::compute("settle_ties.glsl")) {}
 
 void TieNotes::begin() {
   const std::array<std::uint32_t, 8> header{0, 0, 1, 1, 0, 0, 0, 0};

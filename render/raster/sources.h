@@ -16,7 +16,8 @@ class SourcePrograms {
   // `make` compiles a variant from its defines.
   template <class Make>
   SourcePrograms(const std::string& pass, Make make)
-      : programs_{make({{"SOURCE_RANGE"}, {pass}}), make({{"SOURCE_VERTICES"}, {pass}}), make({{"SOURCE_GRID"}, {pass}})} {}
+      : programs_{make({{"SOURCE_RANGE"}, {pass}}), make({{"SOURCE_VERTICES"}, {pass}}),
+                  make({{"SOURCE_GRID"}, {pass}})} {}
 
   // Uses the program for this item and binds the item's points to it.
   void use_for(const DrawItem& item) const;

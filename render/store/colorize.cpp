@@ -22,15 +22,15 @@ constexpr std::uint32_t pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) 
 }
 
 // Dark blue to yellow, even steps of lightness.
-constexpr std::array<glm::vec3, 6> kRamp{{{68, 1, 84}, {65, 68, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81},
-                                          {253, 231, 37}}};
+constexpr std::array<glm::vec3, 6> kRamp{
+    {{68, 1, 84}, {65, 68, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81}, {253, 231, 37}}};
 
 // Created, unclassified, ground, low, medium and high vegetation, building, low noise, key point, water, rail, road,
 // overlap, wire guard, conductor, tower, connector, bridge, high noise.
 constexpr std::array<std::uint32_t, 19> kClassColors{
-    pack(160, 160, 160), pack(190, 190, 190), pack(150, 111, 74), pack(158, 202, 110), pack(98, 168, 77),
-    pack(44, 122, 58),   pack(214, 96, 77),   pack(120, 60, 120), pack(230, 200, 80),  pack(66, 133, 200),
-    pack(110, 90, 90),   pack(90, 96, 105),   pack(200, 180, 220), pack(240, 170, 60), pack(250, 210, 60),
+    pack(160, 160, 160), pack(190, 190, 190), pack(150, 111, 74),  pack(158, 202, 110), pack(98, 168, 77),
+    pack(44, 122, 58),   pack(214, 96, 77),   pack(120, 60, 120),  pack(230, 200, 80),  pack(66, 133, 200),
+    pack(110, 90, 90),   pack(90, 96, 105),   pack(200, 180, 220), pack(240, 170, 60),  pack(250, 210, 60),
     pack(130, 80, 160),  pack(220, 130, 190), pack(200, 150, 120), pack(180, 40, 160)};
 
 std::uint32_t ramp_color(double t) {
@@ -106,8 +106,8 @@ std::string choose_color(const Schema& schema, const std::string& name) {
   if (name == "height" || find_attribute(schema, name)) return name;
   std::vector<std::string> names{"height"};
   for (const Attribute& attribute : schema) names.push_back(attribute.name);
-  throw UsageError(fmt::format("--color {}: the points have no such attribute; there are: {}", name,
-                               fmt::join(names, ", ")));
+  throw UsageError(
+      fmt::format("--color {}: the points have no such attribute; there are: {}", name, fmt::join(names, ", ")));
 }
 
 std::vector<std::string> attributes_for_color(const std::string& color) {
@@ -124,7 +124,8 @@ PointSet make_point_set(const Cloud& cloud, const std::string& color) {
   });
 
   if (color == "height") {
-    color_by_value(set, [&](std::size_t i) { return static_cast<double>(cloud.positions[i].z); }, ramp_color);
+    color_by_value(
+        set, [&](std::size_t i) { return static_cast<double>(cloud.positions[i].z); }, ramp_color);
     return set;
   }
   const Column* column = cloud.find(color);
@@ -136,9 +137,11 @@ PointSet make_point_set(const Cloud& cloud, const std::string& color) {
       return kClassColors[static_cast<std::size_t>(value_at(*column, i)) % kClassColors.size()];
     });
   else if (color == "intensity")
-    color_by_value(set, [&](std::size_t i) { return value_at(*column, i); }, grey_color);
+    color_by_value(
+        set, [&](std::size_t i) { return value_at(*column, i); }, grey_color);
   else
-    color_by_value(set, [&](std::size_t i) { return value_at(*column, i); }, ramp_color);
+    color_by_value(
+        set, [&](std::size_t i) { return value_at(*column, i); }, ramp_color);
   return set;
 }
 

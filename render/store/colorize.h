@@ -9,9 +9,8 @@
 
 namespace stipple {
 
-// What to colour by: "rgb", "height", or the name of any attribute of the schema. An empty name picks the first there is
-// of rgb, intensity, height.
-// Throws UsageError listing what there is when the schema lacks the name.
+// What to colour by: "rgb", "height", or the name of any attribute of the schema. An empty name picks the first there
+// is of rgb, intensity, height. Throws UsageError listing what there is when the schema lacks the name.
 std::string choose_color(const Schema& schema, const std::string& name);
 
 // The attributes that load_cloud must read to colour by `color`.

@@ -51,14 +51,16 @@ Dataset load_dataset(const PointSource& source, const std::string& color, bool w
 
   start = Clock::now();
   PointSet& set = dataset.points;
-  dataset.octree =
-      build_octree(set.grid, set.bounds, PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position));
+  dataset.octree = build_octree(set.grid, set.bounds,
+                                PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position));
   to_store_order(set, *dataset.octree);
   dataset.build_seconds = seconds_since(start);
   return dataset;
 }
 
-double near_plane(const Grid& grid) { return std::max({grid.scale.x, grid.scale.y, grid.scale.z}); }
+double near_plane(const Grid& grid) {
+  return std::max({grid.scale.x, grid.scale.y, grid.scale.z});
+}
 
 std::uint64_t hash_points(const PointSet& set) {
   return tbb::parallel_reduce(

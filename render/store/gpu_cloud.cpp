@@ -56,8 +56,8 @@ void GpuCloud::append_items(std::size_t first, std::size_t count, std::vector<Dr
     const std::size_t place = first % kChunkPoints;
     const std::size_t here = std::min(count, kChunkPoints - place);
     const Chunk& chunk = chunks_[first / kChunkPoints];
-    items.push_back(PointRange{&chunk.points, &chunk.ids, static_cast<std::uint32_t>(place),
-                               static_cast<std::uint32_t>(here)});
+    items.push_back(
+        PointRange{&chunk.points, &chunk.ids, static_cast<std::uint32_t>(place), static_cast<std::uint32_t>(here)});
     first += here;
     count -= here;
   }
@@ -82,8 +82,8 @@ GpuCloud upload_shuffled(const PointSet& points, std::uint64_t seed) {
   const auto total = static_cast<std::uint32_t>(points.size());
   const std::uint32_t prime = largest_shuffle_prime(total);
   const Program shuffle = Program::compute(
-      "shuffle.glsl", {{"CHUNKS", std::to_string(kBoundChunks)},
-                       {"CHUNK_POINTS", std::to_string(GpuCloud::kChunkPoints) + "u"}});
+      "shuffle.glsl",
+      {{"CHUNKS", std::to_string(kBoundChunks)}, {"CHUNK_POINTS", std::to_string(GpuCloud::kChunkPoints) + "u"}});
   GpuBuffer staged_points(kStagedPoints * sizeof(PackedPoint));
   GpuBuffer staged_ids(kStagedPoints * sizeof(std::uint32_t));
 

@@ -38,8 +38,8 @@ class GpuCloud {
 GpuCloud upload_in_order(const PointSet& points);
 
 // Slot permute(i) holds point i, the permutation computed on the GPU: S19's prime-permutation shuffle with P the
-// largest prime <= size with P = 3 mod 4, applied twice, the seed added in between. Equal seeds give equal orders; slots
-// from P on hold the points from P on.
+// largest prime <= size with P = 3 mod 4, applied twice, the seed added in between. Equal seeds give equal orders;
+// slots from P on hold the points from P on.
 GpuCloud upload_shuffled(const PointSet& points, std::uint64_t seed);
 
 // The largest prime p <= n with p = 3 mod 4, or 0 when n < 3.

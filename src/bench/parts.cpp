@@ -36,7 +36,7 @@ void read_through(const PointSource& source, std::span<const std::size_t> attrib
 class ProgressiveFrame {
  public:
   ProgressiveFrame(const PointSet& points, const View& view, RasterizerKind kind, std::uint32_t budget)
-      : rasterizer_(make_rasterizer(kind)),
+      : rasterizer_(make_rasterizer(kind, false)),
         cloud_(upload_shuffled(points, 0)),
         budget_(std::min<std::size_t>(budget, points.size() / 2)),
         target_(view.size, rasterizer_->depth_storage()),
@@ -80,7 +80,7 @@ class ProgressiveFrame {
 void bench_brute_force(const PointSet& points, const View& view, RasterizerKind kind, const BenchSettings& settings,
                        const TimingSink& sink) {
   const GpuCloud cloud = upload_in_order(points);
-  const auto rasterizer = make_rasterizer(kind);
+  const auto rasterizer = make_rasterizer(kind, false);
   FeedbackTarget target(view.size, rasterizer->depth_storage());
   ViewUniforms uniforms;
   uniforms.set(make_view_block(view, points.grid, 1.0));
@@ -121,8 +121,8 @@ void bench_reading(const PointSource& source, const BenchSettings& settings, con
   std::iota(all.begin(), all.end(), std::size_t{0});
   sink(time_part(fmt::format("read {}: positions and {}", info.format, color), points, "points", settings.repeats,
                  [&] { read_through(source, some); }));
-  sink(time_part(fmt::format("read {}: all {} attributes", info.format, all.size()), points, "points",
-                 settings.repeats, [&] { read_through(source, all); }));
+  sink(time_part(fmt::format("read {}: all {} attributes", info.format, all.size()), points, "points", settings.repeats,
+                 [&] { read_through(source, all); }));
   sink(time_part(fmt::format("load {} into memory", info.format), points, "points", settings.repeats,
                  [&] { load_cloud(source, attributes_for_color(color)); }));
 }
@@ -131,8 +131,7 @@ void bench_processing(const Dataset& dataset, const BenchSettings& settings, con
   const PointSet& set = dataset.points;
   const auto points = static_cast<double>(set.size());
   sink(time_part("build octree in memory", points, "points", std::min(settings.repeats, 3), [&] {
-    build_octree(set.grid, set.bounds,
-                 PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position));
+    build_octree(set.grid, set.bounds, PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position));
   }));
   const View view = oblique_view(set, settings.size);
   sink(time_part("reference, double precision", points, "points", settings.repeats,

@@ -16,9 +16,7 @@ struct Place {
   const std::string& path;
   std::size_t view;
 
-  Error error(const std::string& what) const {
-    return Error(fmt::format("{}: view {}: {}", path, view + 1, what));
-  }
+  Error error(const std::string& what) const { return Error(fmt::format("{}: view {}: {}", path, view + 1, what)); }
 };
 
 glm::dvec3 vector_of(const Json& view, const char* key, const glm::dvec3* otherwise, const Place& place) {
@@ -70,7 +68,8 @@ std::vector<NamedCamera> read_cameras(const std::string& path) {
   const Json alone = Json::array({document});
   const Json& views = document.is_object() && document.contains("views") ? document["views"] : alone;
   if (!views.is_array() || views.empty())
-    throw Error(fmt::format("{}: expected an object with \"eye\" and \"target\", or a list of them as \"views\"", path));
+    throw Error(
+        fmt::format("{}: expected an object with \"eye\" and \"target\", or a list of them as \"views\"", path));
   std::vector<NamedCamera> cameras;
   std::set<std::string> names;
   for (std::size_t i = 0; i < views.size(); ++i) {

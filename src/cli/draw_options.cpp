@@ -20,15 +20,13 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
                             .add_option("--budget", options.budget,
                                         "Points added a frame, plain or with k or M for thousands or millions.")
                             ->capture_default_str();
-  command
-      .add_option("--fps", options.fps, "Instead of a fixed budget: steer it to this many frames a second.")
+  command.add_option("--fps", options.fps, "Instead of a fixed budget: steer it to this many frames a second.")
       ->excludes(budget);
   command.add_option("--point-size", options.point_size, "Edge of a point's square in pixels.")->capture_default_str();
   command.add_option("--color", options.color,
                      "Colour by rgb, height or any attribute (`stipple info` lists them). Default: the first there is "
                      "of rgb, intensity, height.");
-  command
-      .add_option("--background", options.background, "Colour of pixels without a point, as RRGGBB in hexadecimal.")
+  command.add_option("--background", options.background, "Colour of pixels without a point, as RRGGBB in hexadecimal.")
       ->capture_default_str();
   command.add_option("--seed", options.seed, "Seed of the shuffle of mode unstructured, a whole number from 0.")
       ->check(CLI::NonNegativeNumber)
@@ -43,8 +41,8 @@ RasterizerKind rasterizer_of(const DrawOptions& options) {
 
 BudgetPolicy budget_of(const DrawOptions& options) {
   BudgetPolicy policy;
-  policy.points = static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(parse_count("--budget", options.budget), 0xFFFFFFFFu));
+  policy.points =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(parse_count("--budget", options.budget), 0xFFFFFFFFu));
   if (!options.fps.empty()) policy.frames_per_second = parse_positive("--fps", options.fps);
   return policy;
 }

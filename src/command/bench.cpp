@@ -50,7 +50,8 @@ class TemporaryScene {
 void run(const Options& options) {
   BenchSettings settings;
   settings.size = parse_size("--size", options.size);
-  settings.budget = static_cast<std::uint32_t>(std::min<std::uint64_t>(parse_count("--budget", options.budget), 0xFFFFFFFFu));
+  settings.budget =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(parse_count("--budget", options.budget), 0xFFFFFFFFu));
   settings.repeats = options.repeats;
   const std::uint64_t points = parse_count("--points", options.points);
 
@@ -105,7 +106,8 @@ void add_bench_command(CLI::App& app) {
       ->capture_default_str();
   add_json_flag(*command, options->json);
   command->footer(
-      "Reading from a warm cache, building the octree, the reference renderer, and for each rasterizer brute force and\n"
+      "Reading from a warm cache, building the octree, the reference renderer, and for each rasterizer brute force "
+      "and\n"
       "the passes of a progressive frame whose predecessor has drawn half of the points. Times are medians.\n\n"
       "Example:\n  stipple bench --points 20M");
   command->callback([options] { run(*options); });

@@ -54,8 +54,8 @@ Camera camera_of(const Options& options, const PointSet& points, double aspect) 
   if (!options.camera.empty()) {
     const std::vector<NamedCamera> cameras = read_cameras(options.camera);
     if (cameras.size() > 1)
-      throw UsageError(fmt::format("--camera {}: holds {} views; a picture is taken from one", options.camera,
-                                   cameras.size()));
+      throw UsageError(
+          fmt::format("--camera {}: holds {} views; a picture is taken from one", options.camera, cameras.size()));
     return cameras.front().camera;
   }
   if (options.eye.empty()) return propose_cameras(points, aspect).front().camera;
@@ -69,9 +69,15 @@ Picture draw_reference(const Dataset& dataset, const View& view, double point_si
   const auto start = std::chrono::steady_clock::now();
   Picture picture{render_reference(dataset.points, view, point_size), {}};
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  picture.stats = {{"points_drawn", dataset.points.size()}, {"points_reprojected", 0}, {"frames", 1},
-                   {"converged", true},  {"ms", ms},     {"covered_pixels", picture.frame.covered_pixels()},
-                   {"nodes_visible", 0}, {"nodes_occluded", 0}, {"bytes_read", 0},
+  picture.stats = {{"points_drawn", dataset.points.size()},
+                   {"points_reprojected", 0},
+                   {"frames", 1},
+                   {"converged", true},
+                   {"ms", ms},
+                   {"covered_pixels", picture.frame.covered_pixels()},
+                   {"nodes_visible", 0},
+                   {"nodes_occluded", 0},
+                   {"bytes_read", 0},
                    {"gl_renderer", nullptr}};
   return picture;
 }
@@ -85,10 +91,15 @@ Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, 
   const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
   const SelectionCounts counts = method->counts();
   Picture picture{renderer.read(), {}};
-  picture.stats = {{"points_drawn", state.points_drawn}, {"points_reprojected", state.points_reprojected},
-                   {"frames", state.frame}, {"converged", state.converged}, {"ms", state.milliseconds},
-                   {"covered_pixels", state.covered_pixels}, {"nodes_visible", counts.nodes_visible},
-                   {"nodes_occluded", 0}, {"bytes_read", counts.bytes_read}};
+  picture.stats = {{"points_drawn", state.points_drawn},
+                   {"points_reprojected", state.points_reprojected},
+                   {"frames", state.frame},
+                   {"converged", state.converged},
+                   {"ms", state.milliseconds},
+                   {"covered_pixels", state.covered_pixels},
+                   {"nodes_visible", counts.nodes_visible},
+                   {"nodes_occluded", 0},
+                   {"bytes_read", counts.bytes_read}};
   picture.stats.update(context_provenance(context));
   return picture;
 }
@@ -111,7 +122,8 @@ void run(const Options& options) {
   // Check what can be checked before the points are read
   const std::optional<Mode> mode = mode_named(options.mode);
   if (!mode && options.mode != kReference)
-    throw UsageError(fmt::format("--mode {}: expected reference, brute-force, hierarchical or unstructured", options.mode));
+    throw UsageError(
+        fmt::format("--mode {}: expected reference, brute-force, hierarchical or unstructured", options.mode));
   const glm::ivec2 size = parse_size("--size", options.draw.size);
   const double point_size = parse_positive("--point-size", options.draw.point_size);
   const std::uint32_t background = parse_color("--background", options.draw.background);
@@ -124,13 +136,17 @@ void run(const Options& options) {
   const Dataset dataset = load_dataset(*source, options.draw.color, mode && needs_octree(*mode));
   const Camera camera = camera_of(options, dataset.points, static_cast<double>(size.x) / size.y);
   const View view = make_view(camera, size, near_plane(dataset.points.grid));
-  Picture picture = mode ? draw_with_gl(options, *mode, dataset, view, point_size)
-                         : draw_reference(dataset, view, point_size);
+  Picture picture =
+      mode ? draw_with_gl(options, *mode, dataset, view, point_size) : draw_reference(dataset, view, point_size);
 
-  Json stats{{"mode", options.mode}, {"raster", mode ? Json(options.draw.raster) : Json()}, {"seed", options.draw.seed},
-             {"budget", budget_of(options.draw).points}, {"point_size", point_size},
+  Json stats{{"mode", options.mode},
+             {"raster", mode ? Json(options.draw.raster) : Json()},
+             {"seed", options.draw.seed},
+             {"budget", budget_of(options.draw).points},
+             {"point_size", point_size},
              {"background", options.draw.background},
-             {"load_ms", dataset.load_seconds * 1e3}, {"build_ms", dataset.build_seconds * 1e3}};
+             {"load_ms", dataset.load_seconds * 1e3},
+             {"build_ms", dataset.build_seconds * 1e3}};
   if (!options.draw.fps.empty()) stats["budget"] = options.draw.fps + " frames/s";
   stats.update(picture.stats);
   stats.update(dataset_provenance(dataset));
@@ -165,8 +181,8 @@ void add_render_command(CLI::App& app) {
                    "hierarchical (Tredinnick and others 2016) or unstructured (Schuetz and others 2019).")
       ->capture_default_str();
   add_draw_options(*command, options->draw);
-  CLI::Option* camera = command->add_option(
-      "--camera", options->camera, R"(JSON file with "eye" and "target", and optionally "up" and "fov_deg".)");
+  CLI::Option* camera = command->add_option("--camera", options->camera,
+                                            R"(JSON file with "eye" and "target", and optionally "up" and "fov_deg".)");
   CLI::Option* eye = command->add_option("--eye", options->eye, "Place of the eye as x,y,z in world coordinates.");
   CLI::Option* target = command->add_option("--target", options->target, "Place the eye looks at, as x,y,z.");
   eye->needs(target)->excludes(camera);
@@ -174,7 +190,9 @@ void add_render_command(CLI::App& app) {
   command->add_option("--up", options->up, "Direction that is up in the picture, as x,y,z.")
       ->needs(eye)
       ->capture_default_str();
-  command->add_option("--fov", options->fov_deg, "Vertical field of view in degrees.")->needs(eye)->capture_default_str();
+  command->add_option("--fov", options->fov_deg, "Vertical field of view in degrees.")
+      ->needs(eye)
+      ->capture_default_str();
   command
       ->add_option("--until", options->until,
                    "When to stop: converged (nothing is left to draw), frame:N (after N frames) or ms:T (after T "

@@ -29,8 +29,7 @@ std::vector<Mode> modes_of(const std::vector<std::string>& names) {
   std::vector<Mode> modes;
   for (const std::string& name : names) {
     const auto mode = mode_named(name);
-    if (!mode)
-      throw UsageError(fmt::format("--modes {}: expected brute-force, hierarchical or unstructured", name));
+    if (!mode) throw UsageError(fmt::format("--modes {}: expected brute-force, hierarchical or unstructured", name));
     if (std::ranges::find(modes, *mode) == modes.end()) modes.push_back(*mode);
   }
   if (modes.empty()) modes.assign(all_modes().begin(), all_modes().end());
@@ -76,9 +75,8 @@ void print_table(const Json& document) {
 void run(const Options& options) {
   const StudySettings settings = settings_of(options);
   const HeadlessContext context;
-  const StudyResult result = run_study(settings, context, [](const std::string& step) {
-    fmt::print(stderr, "stipple: {}\n", step);
-  });
+  const StudyResult result =
+      run_study(settings, context, [](const std::string& step) { fmt::print(stderr, "stipple: {}\n", step); });
   if (options.json) {
     print_json(result.document);
   } else {
@@ -97,7 +95,8 @@ void add_study_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("study", "Compare methods: quality against points drawn and against time.");
   command->add_option("INPUT", options->inputs, "Point clouds, each studied by itself.")->required();
-  command->add_option("-o,--output", options->output, "Folder to write to; it is made where it is missing.")->required();
+  command->add_option("-o,--output", options->output, "Folder to write to; it is made where it is missing.")
+      ->required();
   command
       ->add_option("--modes", options->modes,
                    "Methods, separated by commas: brute-force, hierarchical, unstructured. Default: all.")
@@ -106,9 +105,7 @@ void add_study_command(CLI::App& app) {
                       R"(JSON file with cameras: {"views": [{"name", "eye", "target", "up", "fov_deg"}, ...]}. )"
                       "Default: three views proposed for each cloud.");
   add_draw_options(*command, options->draw);
-  command
-      ->add_option("--duration", options->duration,
-                   "Seconds of drawing after which a curve ends, converged or not.")
+  command->add_option("--duration", options->duration, "Seconds of drawing after which a curve ends, converged or not.")
       ->capture_default_str();
   command->add_option("--repeat", options->repeats, "How often each curve is drawn; times are given as medians.")
       ->check(CLI::Range(1, 1000))
@@ -117,7 +114,8 @@ void add_study_command(CLI::App& app) {
   command->footer(
       "Each method draws each view from nothing with a still camera, frame by frame until its picture equals brute\n"
       "force. Every frame is held against the reference picture: all points, double precision, on the CPU. Writes\n"
-      "curves.csv (a line a frame), study.json (settings, machine, summary), plot.svg, frames/ and reference/ (PNG).\n\n"
+      "curves.csv (a line a frame), study.json (settings, machine, summary), plot.svg, frames/ and reference/ "
+      "(PNG).\n\n"
       "Example:\n  stipple study city.las -o out --modes hierarchical,unstructured --budget 500k");
   command->callback([options] { run(*options); });
 }

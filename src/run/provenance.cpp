@@ -29,8 +29,9 @@ std::string system_name() {
 }  // namespace
 
 Json program_provenance() {
-  return {{"version", version()},
-          {"machine", {{"cpu", cpu_name()}, {"cores", std::thread::hardware_concurrency()}, {"system", system_name()}}}};
+  return {
+      {"version", version()},
+      {"machine", {{"cpu", cpu_name()}, {"cores", std::thread::hardware_concurrency()}, {"system", system_name()}}}};
 }
 
 Json context_provenance(const HeadlessContext& context) {
@@ -43,7 +44,8 @@ Json dataset_provenance(const Dataset& dataset) {
           {"points_total", dataset.points.size()},
           {"points_hash", fmt::format("{:016x}", hash_points(dataset.points))},
           {"color", dataset.color},
-          {"bounds", dataset.points.bounds.empty() ? Json() : json_of(world_box(dataset.points.grid, dataset.points.bounds))},
+          {"bounds",
+           dataset.points.bounds.empty() ? Json() : json_of(world_box(dataset.points.grid, dataset.points.bounds))},
           {"grid", {{"offset", json_of(dataset.points.grid.offset)}, {"scale", json_of(dataset.points.grid.scale)}}}};
 }
 

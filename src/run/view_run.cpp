@@ -26,7 +26,8 @@ FrameState run_view(ProgressiveRenderer& renderer, const View& view, const Budge
                     const std::function<void(const FrameState&)>& observe) {
   using Clock = std::chrono::steady_clock;
   std::optional<BudgetController> controller;
-  if (policy.frames_per_second) controller.emplace(1000.0 / *policy.frames_per_second, kFirstBudget, BudgetController::Limits{});
+  if (policy.frames_per_second)
+    controller.emplace(1000.0 / *policy.frames_per_second, kFirstBudget, BudgetController::Limits{});
 
   renderer.warm_up(view.size);
   FrameState state;

@@ -34,8 +34,8 @@ struct FrameState {
   bool converged = false;
 };
 
-// Draws until `until`; at least one frame. The renderer is warmed up first, outside the clock. `observe` is called after each frame, outside the clock, and may read the
-// renderer.
+// Draws until `until`; at least one frame. The renderer is warmed up first, outside the clock. `observe` is called
+// after each frame, outside the clock, and may read the renderer.
 FrameState run_view(ProgressiveRenderer& renderer, const View& view, const BudgetPolicy& policy, const Until& until,
                     const std::function<void(const FrameState&)>& observe = {});
 

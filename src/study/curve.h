@@ -15,8 +15,8 @@ namespace stipple {
 // A frame and how far it is from the reference picture.
 struct CurvePoint {
   FrameState state;
-  double mse = 0.0;       // over the image, channels 0 to 255
-  bool identical = false; // to the brute-force picture of the same rasterizer, in every pixel and id
+  double mse = 0.0;        // over the image, channels 0 to 255
+  bool identical = false;  // to the brute-force picture of the same rasterizer, in every pixel and id
 };
 
 struct Curve {

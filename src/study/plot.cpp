@@ -45,10 +45,14 @@ Axis nice_axis(double low, double high) {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else
+      out += c;
   }
   return out;
 }
@@ -61,15 +65,20 @@ std::string label(double value) {
 
 using Work = std::function<double(const FrameState&)>;
 
-double points_of(const FrameState& state) { return static_cast<double>(state.points_drawn); }
-double ms_of(const FrameState& state) { return state.milliseconds; }
+double points_of(const FrameState& state) {
+  return static_cast<double>(state.points_drawn);
+}
+double ms_of(const FrameState& state) {
+  return state.milliseconds;
+}
 
 // Rows of the figure: consecutive curves of one dataset and view.
 std::vector<std::span<const Curve>> rows_of(std::span<const Curve> curves) {
   std::vector<std::span<const Curve>> rows;
   for (std::size_t first = 0; first < curves.size();) {
     std::size_t end = first;
-    while (end < curves.size() && curves[end].dataset == curves[first].dataset && curves[end].view == curves[first].view)
+    while (end < curves.size() && curves[end].dataset == curves[first].dataset &&
+           curves[end].view == curves[first].view)
       ++end;
     rows.push_back(curves.subspan(first, end - first));
     first = end;
@@ -90,21 +99,23 @@ class Panel {
       : svg_(svg), left_(left), top_(top), x_(x), y_(y) {}
 
   void draw_frame(const std::string& x_name, const std::string& title) {
-    svg_ += fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{}' height='{}' class='frame'/>\n", left_, top_, kPanelWidth,
-                        kPanelHeight);
+    svg_ += fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{}' height='{}' class='frame'/>\n", left_, top_,
+                        kPanelWidth, kPanelHeight);
     svg_ += fmt::format("<text x='{:.1f}' y='{:.1f}' class='title'>{}</text>\n", left_, top_ - 10, escaped(title));
     svg_ += fmt::format("<text x='{:.1f}' y='{:.1f}' class='name' text-anchor='middle'>{}</text>\n",
                         left_ + kPanelWidth / 2, top_ + kPanelHeight + 36, x_name);
-    svg_ += fmt::format("<text transform='translate({:.1f} {:.1f}) rotate(-90)' class='name' text-anchor='middle'>PSNR "
-                        "[dB]</text>\n",
-                        left_ - 40, top_ + kPanelHeight / 2);
+    svg_ += fmt::format(
+        "<text transform='translate({:.1f} {:.1f}) rotate(-90)' class='name' text-anchor='middle'>PSNR "
+        "[dB]</text>\n",
+        left_ - 40, top_ + kPanelHeight / 2);
     for (double v = x_.low; v <= x_.high + x_.step / 2; v += x_.step)
       svg_ += fmt::format("<text x='{:.1f}' y='{:.1f}' class='tick' text-anchor='middle'>{}</text>\n", px(v),
                           top_ + kPanelHeight + 17, label(v));
     for (double v = y_.low; v <= y_.high + y_.step / 2; v += y_.step)
-      svg_ += fmt::format("<line x1='{:.1f}' x2='{:.1f}' y1='{:.1f}' y2='{:.1f}' class='grid'/>"
-                          "<text x='{:.1f}' y='{:.1f}' class='tick' text-anchor='end'>{}</text>\n",
-                          left_, left_ + kPanelWidth, py(v), py(v), left_ - 7, py(v) + 4, label(v));
+      svg_ += fmt::format(
+          "<line x1='{:.1f}' x2='{:.1f}' y1='{:.1f}' y2='{:.1f}' class='grid'/>"
+          "<text x='{:.1f}' y='{:.1f}' class='tick' text-anchor='end'>{}</text>\n",
+          left_, left_ + kPanelWidth, py(v), py(v), left_ - 7, py(v) + 4, label(v));
   }
 
   void draw_curve(const Curve& curve, const Work& work, const char* color) {
@@ -167,10 +178,11 @@ std::string plot_svg(std::span<const Curve> curves) {
 
   // Legend
   for (std::size_t m = 0; m < modes.size(); ++m)
-    svg += fmt::format("<line x1='{0}' x2='{1}' y1='20' y2='20' stroke='{2}' stroke-width='3'/>"
-                       "<text x='{3}' y='24' class='name'>{4}</text>\n",
-                       kMarginLeft + 150.0 * static_cast<double>(m), kMarginLeft + 150.0 * static_cast<double>(m) + 24,
-                       kColors[m % kColors.size()], kMarginLeft + 150.0 * static_cast<double>(m) + 30, modes[m]);
+    svg += fmt::format(
+        "<line x1='{0}' x2='{1}' y1='20' y2='20' stroke='{2}' stroke-width='3'/>"
+        "<text x='{3}' y='24' class='name'>{4}</text>\n",
+        kMarginLeft + 150.0 * static_cast<double>(m), kMarginLeft + 150.0 * static_cast<double>(m) + 24,
+        kColors[m % kColors.size()], kMarginLeft + 150.0 * static_cast<double>(m) + 30, modes[m]);
   svg += fmt::format("<text x='{}' y='24' class='name' text-anchor='end'>ringed: equal to brute force</text>\n",
                      width - 24);
 

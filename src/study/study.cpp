@@ -32,7 +32,8 @@ struct Truth {
 // Frames kept as pictures: the first, the last, and whenever the points drawn have doubled.
 class FrameKeeper {
  public:
-  FrameKeeper(fs::path folder, std::string provenance) : folder_(std::move(folder)), provenance_(std::move(provenance)) {
+  FrameKeeper(fs::path folder, std::string provenance)
+      : folder_(std::move(folder)), provenance_(std::move(provenance)) {
     fs::create_directories(folder_);
   }
   void offer(const FrameState& state, const Image& image) {
@@ -83,8 +84,7 @@ class InputStudy {
     Truth truth;
     truth.reference = compose(render_reference(dataset_.points, view, settings_.point_size), settings_.background);
     fs::create_directories(folder("reference"));
-    write_png(folder("reference") / (view_name + ".png"), truth.reference,
-              {{"stipple", view_provenance(view).dump()}});
+    write_png(folder("reference") / (view_name + ".png"), truth.reference, {{"stipple", view_provenance(view).dump()}});
 
     const auto everything = method(Mode::brute_force);
     ProgressiveRenderer renderer(*everything, settings_.raster, dataset_.points.grid, settings_.point_size);
@@ -111,8 +111,11 @@ class InputStudy {
     progress_(fmt::format("{}, {}: {}{}", name_, view_name, name_of(mode),
                           settings_.repeats > 1 ? fmt::format(", repeat {}", repeat + 1) : ""));
     Curve curve{name_, view_name, std::string(name_of(mode)), std::string(name_of(settings_.raster)), repeat, {}};
-    const Json provenance{{"dataset", dataset_provenance(dataset_)}, {"view", view_provenance(view)},
-                          {"mode", curve.mode}, {"raster", curve.raster}, {"seed", settings_.seed}};
+    const Json provenance{{"dataset", dataset_provenance(dataset_)},
+                          {"view", view_provenance(view)},
+                          {"mode", curve.mode},
+                          {"raster", curve.raster},
+                          {"seed", settings_.seed}};
     FrameKeeper keeper(folder("frames") / view_name / curve.mode, provenance.dump());
     const auto drawn = method(mode);
     ProgressiveRenderer renderer(*drawn, settings_.raster, dataset_.points.grid, settings_.point_size);

@@ -18,13 +18,13 @@ namespace stipple {
 
 struct StudySettings {
   std::vector<std::string> inputs;
-  std::string folder;                // for everything the study writes
+  std::string folder;  // for everything the study writes
   std::vector<Mode> modes;
   std::vector<NamedCamera> cameras;  // empty: proposed for each cloud
   glm::ivec2 size{1280, 720};
   RasterizerKind raster = RasterizerKind::compute;
   BudgetPolicy budget;
-  double seconds = 120.0;            // of drawing, at most, for each curve
+  double seconds = 120.0;  // of drawing, at most, for each curve
   int repeats = 1;
   double point_size = 1.0;
   std::string color;
@@ -33,14 +33,15 @@ struct StudySettings {
 };
 
 struct StudyResult {
-  Json document;             // what study.json holds
+  Json document;                      // what study.json holds
   std::vector<std::string> failures;  // inputs that could not be studied, and why
 };
 
 // Regime: cold start, still camera (Tredinnick and others 2016, section 5). For each input and view: the reference
 // picture, the brute-force picture, and for each mode its curve. Loading, upload and shader compiling are outside the
-// clock, metrics too. Writes into the folder: curves.csv, study.json, plot.svg, reference/, frames/. An input that fails is
-// reported, and the rest go on. `progress` gets a line for every step. Throws Error when the folder cannot be written.
+// clock, metrics too. Writes into the folder: curves.csv, study.json, plot.svg, reference/, frames/. An input that
+// fails is reported, and the rest go on. `progress` gets a line for every step. Throws Error when the folder cannot be
+// written.
 StudyResult run_study(const StudySettings& settings, const HeadlessContext& context,
                       const std::function<void(const std::string&)>& progress);
 

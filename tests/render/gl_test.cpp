@@ -91,8 +91,8 @@ testing::AssertionResult same_picture(const FrameData& a, const FrameData& b) {
   std::string listed;
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.pixels(); ++i) {
-    differs[i] = a.ids[i] != b.ids[i] || a.rgba[i] != b.rgba[i] || a.positions[i] != b.positions[i] ||
-                 a.depth[i] != b.depth[i];
+    differs[i] =
+        a.ids[i] != b.ids[i] || a.rgba[i] != b.rgba[i] || a.positions[i] != b.positions[i] || a.depth[i] != b.depth[i];
     if (!differs[i] || ++count > 5) continue;
     listed += fmt::format("  pixel {},{}: id {:x} / {:x}, rgba {:08x} / {:08x}, depth {} / {}\n",
                           i % static_cast<std::size_t>(a.size.x), i / static_cast<std::size_t>(a.size.x), a.ids[i],

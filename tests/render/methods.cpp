@@ -96,7 +96,8 @@ TEST_P(EachMethod, DrawsNoMoreThanItsBudget) {
   const auto drawn = method(dataset);
   ProgressiveRenderer renderer(*drawn, rasterizer(), dataset.points.grid);
   const View view = view_of(dataset, "low");
-  for (const std::uint32_t budget : {1u, 2u, 77u, 10'000u}) EXPECT_LE(renderer.draw(view, budget).points_filled, budget);
+  for (const std::uint32_t budget : {1u, 2u, 77u, 10'000u})
+    EXPECT_LE(renderer.draw(view, budget).points_filled, budget);
 }
 
 TEST_P(EachMethod, DrawsEachPointAtMostOnceForAStillView) {
@@ -122,9 +123,9 @@ TEST_P(EachMethod, ConvergesToBruteForceOnRealFiles) {
   const std::filesystem::path data = STIPPLE_SHARED_DATA;
   if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is missing: real files are not tested";
   for (const char* file : {"PDAL+PDAL/las/autzen_trim_7.las", "laspy+laspy/data/simple1_4.las",
-                           "PDAL+PDAL/las/sample_c.las", "PDAL+PDAL/autzen/autzen-dd.las", "PDAL+PDAL/las/interesting.las",
-                           "libLAS+libLAS/data/certainty3d-color-utm-feet-navd88.las", "libLAS+libLAS/data/1.2_1.las",
-                           "PDAL+PDAL/las/epsg_4326.las"}) {
+                           "PDAL+PDAL/las/sample_c.las", "PDAL+PDAL/autzen/autzen-dd.las",
+                           "PDAL+PDAL/las/interesting.las", "libLAS+libLAS/data/certainty3d-color-utm-feet-navd88.las",
+                           "libLAS+libLAS/data/1.2_1.las", "PDAL+PDAL/las/epsg_4326.las"}) {
     const Dataset dataset = load_dataset(*open_source(data / file), "", true);
     const View view = view_of(dataset, "oblique");
     EXPECT_TRUE(same_picture(converged_picture(*method(dataset), rasterizer(), dataset.points.grid, view, 30'011),

@@ -62,7 +62,8 @@ TEST_P(EachRasterizer, TheOrderOfDrawingChangesNothing) {
   const PointSet points = random_points(60'000, 700, 1);
   const View view = front_view(3.0);
   const FrameData expected = draw(points, view);
-  for (std::uint32_t seed = 1; seed <= 3; ++seed) EXPECT_TRUE(same_picture(draw(in_other_order(points, seed), view), expected));
+  for (std::uint32_t seed = 1; seed <= 3; ++seed)
+    EXPECT_TRUE(same_picture(draw(in_other_order(points, seed), view), expected));
 }
 
 TEST_P(EachRasterizer, TheOrderOfDrawingChangesNothingWithSplats) {
@@ -97,7 +98,8 @@ TEST_P(EachRasterizer, SplatsCoverTheirSquare) {
 TEST_P(EachRasterizer, PositionsAtTheEndsOfInt32AreDrawnWhereTheyAre) {
   constexpr int kLow = std::numeric_limits<int>::min();
   constexpr int kHigh = std::numeric_limits<int>::max();
-  const PointSet points = points_at({{kLow, kHigh, kLow}, {kHigh, kHigh, kHigh}, {kLow, kHigh, kHigh}, {777'777, kHigh, 777'777}});
+  const PointSet points =
+      points_at({{kLow, kHigh, kLow}, {kHigh, kHigh, kHigh}, {kLow, kHigh, kHigh}, {777'777, kHigh, 777'777}});
   // The eye at the lower end: the differences take 33 bits
   const Camera camera{.eye = {1234.5, -2.2e6, 987.6}, .target = {0.0, 0.0, 0.0}, .fov_deg = 100};
   const View view = make_view(camera, {320, 320}, 0.001);

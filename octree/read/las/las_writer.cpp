@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "octree/core/error.h"
+#include "octree/core/output_file.h"
 #include "octree/read/las/las_format.h"
 #include "octree/read/las/las_header_block.h"
-#include "octree/core/output_file.h"
 
 namespace stipple {
 namespace {
