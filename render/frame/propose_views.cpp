@@ -99,20 +99,39 @@ Camera looking_at(const WorldBox& box, double azimuth_deg, double elevation_deg,
   return camera;
 }
 
-// From a quarter of the way along the diagonal, above what stands around, towards the middle of the ground.
+// From above the points nearest to a quarter of the way along the diagonal, towards the middle, slightly down. Height
+// and distance follow from how far apart the points are there, so that a narrow strip is seen from as near as a field
+// is.
 Camera low_over(const WorldBox& box, const std::vector<glm::dvec3>& sample) {
-  const glm::dvec3 extent = box.max - box.min;
-  const double width = std::max(extent.x, extent.y);
   Camera camera;
   camera.fov_deg = kFovDeg;
-  camera.eye = {box.min.x + 0.25 * extent.x, box.min.y + 0.25 * extent.y, box.min.z};
-  double top = box.min.z;
-  for (const glm::dvec3& p : sample)
-    if (glm::distance(glm::dvec2(p), glm::dvec2(camera.eye)) < 0.03 * width && p.z <= box.max.z)
-      top = std::max(top, p.z);
-  camera.eye.z = top + 0.02 * width;
-  camera.target = {box.max.x - 0.4 * extent.x, box.max.y - 0.4 * extent.y, box.min.z + 0.2 * extent.z};
-  if (camera.eye == camera.target) camera.target.y += 1.0;
+  if (sample.empty()) return camera;
+  const glm::dvec3 quarter = box.min + 0.25 * (box.max - box.min);
+  const auto nearer_to = [](const glm::dvec2& place) {
+    return [place](const glm::dvec3& a, const glm::dvec3& b) {
+      return glm::distance(glm::dvec2(a), place) < glm::distance(glm::dvec2(b), place);
+    };
+  };
+  const glm::dvec3 here = *std::ranges::min_element(sample, nearer_to(glm::dvec2(quarter)));
+
+  // Its neighbourhood: one point in 500, but at least 8
+  std::vector<glm::dvec3> around = sample;
+  const std::size_t count = std::min(around.size(), std::max<std::size_t>(8, around.size() / 500));
+  const auto last = around.begin() + static_cast<std::ptrdiff_t>(count - 1);
+  std::nth_element(around.begin(), last, around.end(), nearer_to(glm::dvec2(here)));
+  const double radius = glm::distance(glm::dvec2(*last), glm::dvec2(here));
+  double low = here.z;
+  double high = here.z;
+  for (auto p = around.begin(); p <= last; ++p) {
+    low = std::min(low, p->z);
+    if (p->z <= box.max.z) high = std::max(high, p->z);
+  }
+
+  glm::dvec2 ahead = glm::dvec2(0.5 * (box.min + box.max) - here);
+  ahead = glm::length(ahead) > 0.0 ? glm::normalize(ahead) : glm::dvec2(0.0, 1.0);
+  const double reach = std::max(radius, 1e-3 * glm::length(box.max - box.min));
+  camera.eye = {here.x, here.y, high + 0.6 * (reach > 0.0 ? reach : 1.0)};
+  camera.target = {glm::dvec2(here) + 8.0 * (reach > 0.0 ? reach : 1.0) * ahead, low};
   return camera;
 }
 

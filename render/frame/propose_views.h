@@ -16,8 +16,8 @@ struct NamedCamera {
 };
 
 // "oblique" and "aerial" show everything from 30 and 75 degrees above the horizon, "low" looks along the cloud from
-// just above what stands around the eye. `aspect` is width over height. Stray points far outside do not count.
-// An empty cloud gives cameras that look at the origin.
+// just above what stands around the eye. `aspect` is width over height. Stray points far outside do not count. Depends
+// on ids, not on the order of the points. An empty cloud gives cameras near the origin.
 std::vector<NamedCamera> propose_cameras(const PointSet& points, double aspect);
 
 }  // namespace stipple
