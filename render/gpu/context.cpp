@@ -34,13 +34,15 @@ std::vector<EGLDeviceEXT> egl_devices() {
   std::array<EGLDeviceEXT, 16> devices{};
   EGLint count = 0;
   if (!eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count)) return {};
-  return {devices.begin(), devices.begin() + count};
+  // No braces: a list of two pointers would be a vector of two devices
+  return std::vector<EGLDeviceEXT>(devices.begin(), devices.begin() + count);
 }
 
-std::vector<Candidate> candidates() {
+std::vector<Candidate> candidates(EglPlatform platform) {
   std::vector<Candidate> hardware;
   std::vector<Candidate> software;
-  const std::vector<EGLDeviceEXT> devices = egl_devices();
+  std::vector<EGLDeviceEXT> devices;
+  if (platform != EglPlatform::surfaceless) devices = egl_devices();
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const char* extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
     const bool is_software = extensions && std::string_view(extensions).find("software") != std::string_view::npos;
@@ -48,7 +50,8 @@ std::vector<Candidate> candidates() {
         .push_back({fmt::format("EGL device {}", i), EGL_PLATFORM_DEVICE_EXT, devices[i]});
   }
   std::vector<Candidate> all = hardware;
-  all.push_back({"EGL surfaceless", EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY});
+  if (platform != EglPlatform::device)
+    all.push_back({"EGL surfaceless", EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY});
   all.insert(all.end(), software.begin(), software.end());
   return all;
 }
@@ -112,7 +115,7 @@ struct HeadlessContext::Egl {
 
 HeadlessContext::HeadlessContext(const ContextOptions& options) {
   std::string failures;
-  for (const Candidate& candidate : candidates()) {
+  for (const Candidate& candidate : candidates(options.platform)) {
     egl_ = std::make_unique<Egl>();
     const std::string why = egl_->open(candidate, options.errors_are_fatal);
     if (why.empty()) {

@@ -6,17 +6,22 @@
 
 namespace stipple {
 
+// Where a context without a window may come from.
+enum class EglPlatform { any, surfaceless, device };
+
 struct ContextOptions {
   // Abort on any error the driver reports: for tests. Otherwise such reports go to stderr.
   bool errors_are_fatal = false;
+  EglPlatform platform = EglPlatform::any;
 };
 
 // Current on the thread that made it, from construction to destruction; one at a time. Depth runs from 0 to 1
 // (glClipControl), points take their size from the shader.
 class HeadlessContext {
  public:
-  // Tries, in this order: EGL devices that are no software (NVIDIA and others), the surfaceless platform (Mesa),
-  // software devices. Throws Error saying what was tried, why each failed and what to install.
+  // Tries, in this order and as far as the options allow: EGL devices that are no software (NVIDIA and others), the
+  // surfaceless platform (Mesa), software devices. Throws Error saying what was tried, why each failed and what to
+  // install.
   explicit HeadlessContext(const ContextOptions& options = {});
   ~HeadlessContext();
   HeadlessContext(const HeadlessContext&) = delete;
