@@ -29,7 +29,7 @@ std::string describe(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-std::unique_ptr<PointSource> open_source(const std::string& path) {
+std::unique_ptr<PointSource> open_file(const std::string& path) {
   std::array<std::byte, 8> start{};
   const InputFile file(path);
   const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), start.size()));

@@ -9,6 +9,6 @@
 namespace stipple {
 
 // Throws Error naming the file and what is read when the content is none of it.
-std::unique_ptr<PointSource> open_source(const std::string& path);
+std::unique_ptr<PointSource> open_file(const std::string& path);
 
 }  // namespace stipple

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,10 +16,24 @@
 
 namespace stipple {
 
+// What a tree says about the values of one attribute. Empty vectors, NaN: nothing.
+struct AttributeRange {
+  std::vector<double> min;  // a value a component, as stored times scale plus offset
+  std::vector<double> max;
+  std::vector<std::uint64_t> histogram;  // of attributes of one byte: 256 counts; else empty
+};
+
 struct TreeInfo {
   SourceInfo source;     // path, format, version, encoding, points as the metadata state them, grid, schema, bounds
   RootCube cube;         // of the root node
   double spacing = 0.0;  // of the root's points, world units; halves with every level. 0: unknown
+  // No two points of an inner node are closer than this times the node's spacing. Empty: nothing is promised.
+  std::optional<double> minimal_distance;
+  bool has_details = false;  // see TreeStore::read_details()
+  AttributeRange position_range;
+  std::vector<AttributeRange> ranges;  // of each attribute of source.schema
+  std::uint64_t point_bytes = 0;       // of the file that holds the points, and nothing else
+  std::uint64_t hierarchy_bytes = 0;   // of the file that holds the hierarchy
 };
 
 // A node as the hierarchy describes it.
@@ -33,7 +47,32 @@ struct StoredNode {
   std::uint64_t points = 0;
   std::uint64_t byte_offset = 0;  // of its points
   std::uint64_t byte_size = 0;
+
+  bool is_leaf() const {
+    for (const std::uint32_t child : children)
+      if (child != kNone) return false;
+    return true;
+  }
 };
+
+// What is known of a node's points without reading them.
+struct NodeDetails {
+  GridBox box;  // tight
+  BoxCounts profile;
+  std::vector<Cluster> clusters;  // `first` counts from the node's first point
+};
+
+// The deepest level of a stored node, so that `cell` has room.
+inline constexpr int kMaxStoredLevel = 31;
+
+// "r" for the root, "r04" for child 4 of its child 0: what Potree calls a node.
+std::string name_of(const StoredNode& node);
+
+// The world box of the node's cell.
+WorldBox cell_of(const RootCube& cube, const StoredNode& node);
+
+// Child 0 to 7 of a node: level, cell and parent set.
+StoredNode child_of(const StoredNode& node, std::uint32_t index, int child);
 
 // An octree that stays on disk. All functions may be called from several threads at once; reads are positioned reads
 // without a lock.
@@ -49,26 +88,36 @@ class TreeStore {
   // The nodes of one piece of the hierarchy, parents before children; `parent` and `children` are indices into the same
   // vector. Nodes whose children are in another piece are named in `continued`.
   struct HierarchyPiece {
-    std::vector<StoredNode> nodes;
     struct Continuation {
-      std::uint32_t node = 0;      // of this piece; it is the first node of the next
-      std::uint64_t piece = 0;     // where the next piece is: for read_hierarchy
+      std::uint32_t node = 0;   // of this piece; it is the first node of the next
+      std::uint64_t piece = 0;  // where the next piece is
       std::uint64_t piece_size = 0;
     };
-    std::vector<Continuation> continued;
+    std::vector<StoredNode> nodes;
+    std::vector<Continuation> continued;  // these nodes have no byte range yet
   };
-  // The piece that starts with the root.
+  // The piece that starts with the root. No nodes: the tree has no points.
   virtual HierarchyPiece root_piece() const = 0;
   // The piece a continuation leads to. `parent`: that node as known so far (its level and cell). Throws Error when the
   // hierarchy breaks off or contradicts itself.
   virtual HierarchyPiece read_piece(const HierarchyPiece::Continuation& where, const StoredNode& parent) const = 0;
 
-  // Positions and the attributes asked for (indices into info().source.schema) of one node, in stored order. Throws Error
-  // when the data break off.
-  virtual void read_points(const StoredNode& node, std::span<const std::size_t> attributes, PointBatch& batch) const = 0;
+  // Positions and the attributes asked for (indices into info().source.schema) of one node, in stored order.
+  // `batch.first` stays as it is. Throws Error when the data break off or contradict the node.
+  virtual void read_points(const StoredNode& node, std::span<const std::size_t> attributes,
+                           PointBatch& batch) const = 0;
+
+  // Of a node with points, if info().has_details: trees that are not ours know nothing. Throws Error when the details
+  // break off or do not know the node.
+  virtual NodeDetails read_details(const StoredNode& node) const = 0;
 };
 
-// The whole hierarchy in memory, pieces joined, parents before children.
+// The whole hierarchy in memory, pieces joined, parents before children. Throws Error when pieces overlap, which would
+// let a small file describe a tree without end.
 std::vector<StoredNode> read_whole_hierarchy(const TreeStore& store);
+
+// The nodes of a whole hierarchy that have points, in the order in which these stand in the file. Throws Error naming
+// two nodes that share bytes, which would let a small file hold points without end.
+std::vector<StoredNode> in_store_order(const TreeStore& store, std::span<const StoredNode> hierarchy);
 
 }  // namespace stipple

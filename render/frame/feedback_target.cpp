@@ -1,8 +1,29 @@
 #include "render/frame/feedback_target.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 
 namespace stipple {
+namespace {
+
+// In bands of rows: OpenGL counts the bytes of one call in 31 bits, less than a picture of 16384x16384 has.
+void read_texture(const Texture2D& texture, GLenum format, GLenum type, std::size_t pixel_bytes, void* out) {
+  constexpr std::size_t kBandBytes = 8u << 20;
+  const glm::ivec2 size = texture.size();
+  const std::size_t row_bytes = static_cast<std::size_t>(size.x) * pixel_bytes;
+  const int rows = static_cast<int>(std::max<std::size_t>(1, kBandBytes / row_bytes));
+  auto* place = static_cast<std::byte*>(out);
+  for (int y = 0; y < size.y; y += rows) {
+    const int count = std::min(rows, size.y - y);
+    const std::size_t bytes = row_bytes * static_cast<std::size_t>(count);
+    glGetTextureSubImage(texture.name(), 0, 0, y, 0, size.x, count, 1, format, type, static_cast<GLsizei>(bytes),
+                         place);
+    place += bytes;
+  }
+}
+
+}  // namespace
 
 FeedbackTarget::FeedbackTarget(const glm::ivec2& size, DepthStorage storage)
     : storage_(storage),
@@ -29,15 +50,14 @@ FrameData FeedbackTarget::read(double near) const {
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
   FrameData frame = empty_frame(size());
   const std::size_t pixels = frame.pixels();
-  const auto bytes = [&](std::size_t each) { return static_cast<GLsizei>(pixels * each); };
 
   std::vector<glm::ivec4> points(pixels);
-  glGetTextureImage(points_.name(), 0, GL_RGBA_INTEGER, GL_INT, bytes(sizeof(glm::ivec4)), points.data());
-  glGetTextureImage(ids_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, bytes(4), frame.ids.data());
+  read_texture(points_, GL_RGBA_INTEGER, GL_INT, sizeof(glm::ivec4), points.data());
+  read_texture(ids_, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, frame.ids.data());
   if (storage_ == DepthStorage::attachment)
-    glGetTextureImage(depth_.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, bytes(4), frame.depth.data());
+    read_texture(depth_, GL_DEPTH_COMPONENT, GL_FLOAT, 4, frame.depth.data());
   else
-    glGetTextureImage(depth_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, bytes(4), frame.depth.data());
+    read_texture(depth_, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, frame.depth.data());
 
   for (std::size_t i = 0; i < pixels; ++i) {
     if (frame.ids[i] == kNoPoint) {

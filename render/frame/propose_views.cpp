@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace stipple {
 namespace {
@@ -20,8 +21,10 @@ std::vector<glm::dvec3> sample_of(const PointSet& set) {
   return sample;
 }
 
+// Rounded outwards: of a few values none is left out.
 double percentile(std::vector<double>& values, double part) {
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  const double place = part * static_cast<double>(values.size() - 1);
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(part < 0.5 ? std::floor(place) : std::ceil(place));
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
 }
@@ -68,7 +71,7 @@ double centred(const Corners& corners, double ahead, int axis) {
 // Looks at the box from this azimuth and elevation, so near that its corners touch the borders of the picture, centred.
 // A corner is in the picture of an eye while |corner across - eye across| <= corner forward - eye forward: two bounds
 // on eye forward plus and minus eye across. The eye goes as far forward as all allow.
-Camera looking_at(const WorldBox& box, double azimuth_deg, double elevation_deg, double aspect) {
+Camera looking_at(const WorldBox& box, double azimuth_deg, double elevation_deg, double aspect, double cell) {
   const double azimuth = glm::radians(azimuth_deg);
   const double elevation = glm::radians(elevation_deg);
   const glm::dvec3 forward(-std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth),
@@ -90,6 +93,8 @@ Camera looking_at(const WorldBox& box, double azimuth_deg, double elevation_deg,
   }
   double ahead = 0.5 * std::min(plus.x + minus.x, plus.y + minus.y);
   if (!(ahead < 0.0)) ahead = -1.0;  // a box without extent
+  // The near plane is a cell away
+  for (const glm::dvec3& corner : corners) ahead = std::min(ahead, corner.z - 2.0 * cell);
 
   Camera camera;
   camera.fov_deg = kFovDeg;
@@ -109,7 +114,9 @@ Camera low_over(const WorldBox& box, const std::vector<glm::dvec3>& sample) {
   const glm::dvec3 quarter = box.min + 0.25 * (box.max - box.min);
   const auto nearer_to = [](const glm::dvec2& place) {
     return [place](const glm::dvec3& a, const glm::dvec3& b) {
-      return glm::distance(glm::dvec2(a), place) < glm::distance(glm::dvec2(b), place);
+      // Columns stand at equal distance: their points need an order, too
+      return std::tuple(glm::distance(glm::dvec2(a), place), a.x, a.y, a.z) <
+             std::tuple(glm::distance(glm::dvec2(b), place), b.x, b.y, b.z);
     };
   };
   const glm::dvec3 here = *std::ranges::min_element(sample, nearer_to(glm::dvec2(quarter)));
@@ -140,8 +147,9 @@ Camera low_over(const WorldBox& box, const std::vector<glm::dvec3>& sample) {
 std::vector<NamedCamera> propose_cameras(const PointSet& points, double aspect) {
   const std::vector<glm::dvec3> sample = sample_of(points);
   const WorldBox box = robust_box(sample);
-  return {{"oblique", looking_at(box, 235.0, 30.0, aspect)},
-          {"aerial", looking_at(box, 265.0, 75.0, aspect)},
+  const double cell = std::min({points.grid.scale.x, points.grid.scale.y, points.grid.scale.z});
+  return {{"oblique", looking_at(box, 235.0, 30.0, aspect, cell)},
+          {"aerial", looking_at(box, 265.0, 75.0, aspect, cell)},
           {"low", low_over(box, sample)}};
 }
 

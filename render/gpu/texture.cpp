@@ -13,6 +13,11 @@ Texture2D::Texture2D(GLenum format, const glm::ivec2& size) : format_(format), s
   glCreateTextures(GL_TEXTURE_2D, 1, &name);
   handle_ = Handle<gl_delete::texture>(name);
   glTextureStorage2D(name, 1, format, size.x, size.y);
+  GLint given = 0;
+  glGetTextureParameteriv(name, GL_TEXTURE_IMMUTABLE_FORMAT, &given);
+  if (!given)
+    throw Error(
+        fmt::format("the OpenGL driver refused a target of {}x{} pixels: draw a smaller picture", size.x, size.y));
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

@@ -12,7 +12,7 @@ namespace stipple {
 class Texture2D {
  public:
   Texture2D() = default;
-  // `format`: sized internal format. Contents are undefined.
+  // `format`: sized internal format. Contents are undefined. Throws Error when the driver refuses the size.
   Texture2D(GLenum format, const glm::ivec2& size);
 
   GLuint name() const { return handle_.name(); }

@@ -1,12 +1,21 @@
 #include "render/method/progressive_renderer.h"
 
+#include <fmt/format.h>
+
+#include "octree/core/error.h"
+
 namespace stipple {
 
 ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, double point_size)
     : method_(method),
       rasterizer_(make_rasterizer(rasterizer, point_size != 1.0)),
       grid_(grid),
-      point_size_(point_size) {}
+      point_size_(point_size) {
+  const glm::dvec2 sizes = rasterizer_->point_sizes();
+  if (!(point_size > 0.0 && point_size >= sizes.x && point_size <= sizes.y))
+    throw UsageError(fmt::format("point size {}: rasterizer {} draws points of {} to {} pixels here", point_size,
+                                 name_of(rasterizer), sizes.x, sizes.y));
+}
 
 void ProgressiveRenderer::resize(const glm::ivec2& size) {
   for (auto& target : targets_) target.emplace(size, rasterizer_->depth_storage());
@@ -45,6 +54,7 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   }
   current().clear();
   coverage_.count(current());
+  view_ = {};
   glFinish();
 }
 
@@ -52,9 +62,11 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   if (view != view_) {
     if (!targets_[0] || view.size != current().size()) resize(view.size);
     view_ = view;
+    view_drawn_ = false;
     method_.start_view(view);
   }
-  if (method_.finished()) return {0, true};
+  // A view of nothing is finished before it begins, but the last view's picture must go
+  if (view_drawn_ && method_.finished()) return {0, true};
 
   Selection selection = method_.select(budget);
   current_ = 1 - current_;
@@ -62,6 +74,7 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   uniforms_.set(make_view_block(view, grid_, point_size_));
   rasterizer_->draw(current(), selection.items);
   if (vertices_) vertices_->prepare(current());
+  view_drawn_ = true;
   return {selection.points, method_.finished()};
 }
 

@@ -23,11 +23,12 @@ struct FrameReport {
 
 class ProgressiveRenderer {
  public:
-  // `method` must outlive the renderer. `point_size` in pixels.
+  // `method` must outlive the renderer. `point_size` in pixels, above 0. Throws UsageError for a size that the
+  // rasterizer does not draw (Rasterizer::point_sizes).
   ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, double point_size = 1.0);
 
   // Makes targets of this size and has every pass run once on a single point, so that the driver's compiling and
-  // allocating stay outside of timed parts. Waits for the GPU.
+  // allocating stay outside of timed parts. The next frame starts from nothing. Waits for the GPU.
   void warm_up(const glm::ivec2& size);
 
   // Draws the next frame: the last one reprojected into `view`, and at most `budget` more points. A converged, still
@@ -57,7 +58,8 @@ class ProgressiveRenderer {
   std::array<std::optional<FeedbackTarget>, 2> targets_;
   std::optional<VertexCarry> vertices_;
   std::size_t current_ = 0;
-  View view_;
+  View view_;                // of size 0: none
+  bool view_drawn_ = false;  // whether the last frame shows view_
 };
 
 }  // namespace stipple

@@ -11,6 +11,8 @@ class ComputeRasterizer final : public Rasterizer {
   // `splats`: points may be larger than a pixel.
   explicit ComputeRasterizer(bool splats);
   DepthStorage depth_storage() const override { return DepthStorage::image; }
+  // Mesa's software renderer leaves a loop after 65,535 steps: 255 x 255 pixels.
+  glm::dvec2 point_sizes() const override { return {0.0, 255.0}; }
   void draw(FeedbackTarget& target, std::span<const DrawItem> items) override;
 
  private:

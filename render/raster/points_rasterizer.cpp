@@ -38,6 +38,12 @@ PointsRasterizer::PointsRasterizer()
       no_attributes_(make_vertex_array()),
       repeat_command_(4 * sizeof(std::uint32_t)) {}
 
+glm::dvec2 PointsRasterizer::point_sizes() const {
+  std::array<GLfloat, 2> range{};
+  glGetFloatv(GL_POINT_SIZE_RANGE, range.data());
+  return {range[0], range[1]};
+}
+
 void PointsRasterizer::draw(FeedbackTarget& target, std::span<const DrawItem> items) {
   target.clear();
   const std::array<const Texture2D*, 2> colors{&target.points(), &target.ids()};

@@ -10,6 +10,8 @@ class PointsRasterizer final : public Rasterizer {
  public:
   PointsRasterizer();
   DepthStorage depth_storage() const override { return DepthStorage::attachment; }
+  // What the driver does not clamp.
+  glm::dvec2 point_sizes() const override;
   void draw(FeedbackTarget& target, std::span<const DrawItem> items) override;
 
  private:

@@ -68,7 +68,7 @@ void color_by_rgb(const Column& column, PointSet& set) {
   });
 }
 
-// The 1st and 99th percentile of value(i), from at most a million of them.
+// The 1st and 99th percentile of value(i), from at most a million of them; rounded outwards, so that two values differ.
 template <class Value>
 std::pair<double, double> robust_range(std::size_t count, const Value& value) {
   const std::size_t step = std::max<std::size_t>(1, count / 1'000'000);
@@ -77,7 +77,8 @@ std::pair<double, double> robust_range(std::size_t count, const Value& value) {
     if (const double v = value(i); std::isfinite(v)) sample.push_back(v);
   if (sample.empty()) return {0.0, 1.0};
   const auto at = [&](double part) {
-    const auto nth = sample.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(sample.size() - 1));
+    const double place = part * static_cast<double>(sample.size() - 1);
+    const auto nth = sample.begin() + static_cast<std::ptrdiff_t>(part < 0.5 ? std::floor(place) : std::ceil(place));
     std::nth_element(sample.begin(), nth, sample.end());
     return *nth;
   };

@@ -59,7 +59,7 @@ Dataset load_dataset(const PointSource& source, const std::string& color, bool w
 }
 
 double near_plane(const Grid& grid) {
-  return std::max({grid.scale.x, grid.scale.y, grid.scale.z});
+  return std::min({grid.scale.x, grid.scale.y, grid.scale.z});
 }
 
 std::uint64_t hash_points(const PointSet& set) {

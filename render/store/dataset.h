@@ -25,8 +25,8 @@ struct Dataset {
 // Reads and colours the source (see choose_color); builds the octree when asked to.
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree);
 
-// The near plane for a cloud: one cell of its grid. Points nearer than the grid can tell are clipped; reversed float
-// depth loses nothing by it.
+// The near plane for a cloud: one cell of its grid along the finest axis. Points nearer than the grid can tell are
+// clipped; reversed float depth loses nothing by it.
 double near_plane(const Grid& grid);
 
 // 64-bit hash of ids, positions and colours: equal for equal points, whatever order they stand in.

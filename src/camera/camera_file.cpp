@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <fstream>
 #include <set>
 
@@ -41,8 +41,9 @@ NamedCamera camera_of(const Json& view, const Place& place) {
     named.name = view["name"].get<std::string>();
   }
   // Names become folders
-  if (named.name.find('/') != std::string::npos || named.name[0] == '.')
-    throw place.error(fmt::format("the name \"{}\" cannot be the name of a folder", named.name));
+  const bool control = std::ranges::any_of(named.name, [](unsigned char c) { return c < 0x20; });
+  if (named.name.find('/') != std::string::npos || named.name[0] == '.' || control)
+    throw place.error(fmt::format("the name {} cannot be the name of a folder", view["name"].dump()));
   camera.eye = vector_of(view, "eye", nullptr, place);
   camera.target = vector_of(view, "target", nullptr, place);
   const glm::dvec3 up = camera.up;
@@ -64,6 +65,8 @@ std::vector<NamedCamera> read_cameras(const std::string& path) {
     document = Json::parse(file);
   } catch (const Json::parse_error& e) {
     throw file_error(path, e.byte, fmt::format("is no JSON: {}", e.what()));
+  } catch (const Json::exception& e) {
+    throw Error(fmt::format("{}: cannot be taken as JSON: {}", path, e.what()));
   }
   const Json alone = Json::array({document});
   const Json& views = document.is_object() && document.contains("views") ? document["views"] : alone;

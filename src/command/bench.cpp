@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "octree/core/error.h"
+#include "octree/open/open.h"
 #include "octree/read/las/las_writer.h"
-#include "octree/read/open.h"
 #include "render/gpu/context.h"
 #include "src/bench/parts.h"
 #include "src/cli/cli.h"

@@ -8,7 +8,7 @@
 
 #include "octree/core/error.h"
 #include "octree/core/output_file.h"
-#include "octree/read/open.h"
+#include "octree/open/open.h"
 #include "render/frame/propose_views.h"
 #include "render/gpu/context.h"
 #include "render/measure/image.h"
@@ -153,8 +153,8 @@ void run(const Options& options) {
   stats["view"] = view_provenance(view);
   stats.update(program_provenance());
 
-  write_png(options.output, compose(picture.frame, background), {{"stipple", stats.dump()}});
-  if (!options.stats.empty()) write_file(options.stats, stats.dump(2) + "\n");
+  write_png(options.output, compose(picture.frame, background), {{"stipple", text_of(stats)}});
+  if (!options.stats.empty()) write_file(options.stats, text_of(stats, 2) + "\n");
   write_arrays(options, picture.frame, dataset.points.grid);
   if (options.json) {
     print_json(stats);

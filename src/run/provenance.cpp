@@ -28,6 +28,10 @@ std::string system_name() {
 
 }  // namespace
 
+std::string text_of(const Json& document, int indent) {
+  return document.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 Json program_provenance() {
   return {
       {"version", version()},

@@ -10,6 +10,9 @@
 
 namespace stipple {
 
+// The document as text, on one line when `indent` is negative. Bytes that are not UTF-8 (in paths) become U+FFFD.
+std::string text_of(const Json& document, int indent = -1);
+
 // {"version", "machine": {"cpu", "cores", "system"}}
 Json program_provenance();
 // {"gl_platform", "gl_renderer", "gl_version"}

@@ -19,7 +19,7 @@ std::optional<Reached> first_that(const Curve& curve, const Condition& condition
 
 // A field of a CSV file: quoted where it must be (RFC 4180).
 std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';

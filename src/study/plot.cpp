@@ -51,6 +51,8 @@ std::string escaped(const std::string& text) {
       out += "&lt;";
     else if (c == '>')
       out += "&gt;";
+    else if (static_cast<unsigned char>(c) < 0x20)
+      out += ' ';  // XML 1.0 has no control characters
     else
       out += c;
   }

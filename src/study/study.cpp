@@ -8,7 +8,7 @@
 
 #include "octree/core/error.h"
 #include "octree/core/output_file.h"
-#include "octree/read/open.h"
+#include "octree/open/open.h"
 #include "render/measure/psnr.h"
 #include "render/method/progressive_renderer.h"
 #include "render/reference/reference.h"
@@ -37,7 +37,9 @@ class FrameKeeper {
     fs::create_directories(folder_);
   }
   void offer(const FrameState& state, const Image& image) {
-    if (!state.converged && state.points_drawn < next_) return;
+    if (state.points_drawn >= next_) keep(state, image);
+  }
+  void keep(const FrameState& state, const Image& image) {
     next_ = 2 * state.points_drawn;
     write_png(folder_ / fmt::format("{:05}.png", state.frame), image,
               {{"stipple", provenance_}, {"points_drawn", std::to_string(state.points_drawn)}});
@@ -84,7 +86,8 @@ class InputStudy {
     Truth truth;
     truth.reference = compose(render_reference(dataset_.points, view, settings_.point_size), settings_.background);
     fs::create_directories(folder("reference"));
-    write_png(folder("reference") / (view_name + ".png"), truth.reference, {{"stipple", view_provenance(view).dump()}});
+    write_png(folder("reference") / (view_name + ".png"), truth.reference,
+              {{"stipple", text_of(view_provenance(view))}});
 
     const auto everything = method(Mode::brute_force);
     ProgressiveRenderer renderer(*everything, settings_.raster, dataset_.points.grid, settings_.point_size);
@@ -116,7 +119,7 @@ class InputStudy {
                           {"mode", curve.mode},
                           {"raster", curve.raster},
                           {"seed", settings_.seed}};
-    FrameKeeper keeper(folder("frames") / view_name / curve.mode, provenance.dump());
+    FrameKeeper keeper(folder("frames") / view_name / curve.mode, text_of(provenance));
     const auto drawn = method(mode);
     ProgressiveRenderer renderer(*drawn, settings_.raster, dataset_.points.grid, settings_.point_size);
     const auto observe = [&](const FrameState& state) {
@@ -125,7 +128,9 @@ class InputStudy {
       curve.points.push_back({state, mean_squared_error(image, truth.reference), frame.ids == truth.brute_force.ids});
       if (repeat == 0) keeper.offer(state, image);
     };
-    run_view(renderer, view, settings_.budget, {.frames = {}, .milliseconds = 1e3 * settings_.seconds}, observe);
+    const FrameState end =
+        run_view(renderer, view, settings_.budget, {.frames = {}, .milliseconds = 1e3 * settings_.seconds}, observe);
+    if (repeat == 0) keeper.keep(end, compose(renderer.read(), settings_.background));
     return curve;
   }
 
@@ -205,7 +210,7 @@ StudyResult run_study(const StudySettings& settings, const HeadlessContext& cont
   result.document["failures"] = result.failures;
   const fs::path folder(settings.folder);
   write_file(folder / "curves.csv", curves_csv(curves));
-  write_file(folder / "study.json", result.document.dump(2) + "\n");
+  write_file(folder / "study.json", text_of(result.document, 2) + "\n");
   write_file(folder / "plot.svg", plot_svg(curves));
   return result;
 }

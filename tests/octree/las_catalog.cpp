@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "octree/cloud/cloud.h"
-#include "octree/read/open.h"
+#include "octree/open/open.h"
 #include "tests/octree/las_fixture.h"
 
 namespace stipple {

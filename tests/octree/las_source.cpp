@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "octree/cloud/cloud.h"
-#include "octree/read/open.h"
+#include "octree/open/open.h"
 #include "tests/octree/las_fixture.h"
 
 namespace stipple {

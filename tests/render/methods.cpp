@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "octree/core/error.h"
-#include "octree/read/open.h"
+#include "octree/open/open.h"
 #include "render/method/progressive_renderer.h"
 #include "tests/render/gl_test.h"
 

@@ -1,0 +1,22 @@
+#include "octree/store/open_tree.h"
+
+#include <fmt/format.h>
+
+#include "octree/core/error.h"
+#include "octree/store/potree2/potree2_store.h"
+
+namespace stipple {
+
+bool is_tree(const std::string& path) {
+  return is_potree2(path);
+}
+
+std::unique_ptr<TreeStore> open_tree(const std::string& path) {
+  if (is_potree2(path)) return std::make_unique<Potree2Store>(path);
+  throw Error(
+      fmt::format("{}: is no octree that is read: a folder with metadata.json, hierarchy.bin and octree.bin "
+                  "(Potree 2.0). Build one with `stipple build`, or check the path.",
+                  path));
+}
+
+}  // namespace stipple

@@ -1,0 +1,121 @@
+#include "octree/store/tree_store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+
+#include "octree/core/error.h"
+
+namespace stipple {
+namespace {
+
+using Piece = TreeStore::HierarchyPiece;
+
+// The pieces read so far by their place. Disjoint pieces end where the file does.
+class PiecesRead {
+ public:
+  explicit PiecesRead(const std::string& path) : path_(path) {}
+
+  void add(const Piece::Continuation& where, const StoredNode& node) {
+    const std::uint64_t end = where.piece + where.piece_size;
+    const auto next = ends_.lower_bound(where.piece + 1);
+    if (where.piece_size == 0 || end < where.piece || (next != ends_.end() && next->second < end))
+      throw file_error(path_, where.piece,
+                       fmt::format("the hierarchy piece of node {} holds bytes of another piece; every node was "
+                                   "expected once. The file is damaged; build or copy the tree again.",
+                                   name_of(node)));
+    ends_[end] = where.piece;
+  }
+
+ private:
+  const std::string& path_;
+  std::map<std::uint64_t, std::uint64_t> ends_;  // first byte of the piece that ends there
+};
+
+// Pieces that are known of and not read yet; `node` counts in the whole tree.
+using Pending = std::deque<Piece::Continuation>;
+
+// Appends a piece to the tree. Its first node takes the place of `root`, the node that led to it.
+void append_piece(std::vector<StoredNode>& tree, std::uint32_t root, const Piece& piece, Pending& pending) {
+  const auto base = static_cast<std::uint32_t>(tree.size());
+  const auto index_in_tree = [&](std::uint32_t node) {
+    if (node == StoredNode::kNone) return node;
+    return node == 0 ? root : base + node - 1;
+  };
+  for (std::size_t i = 0; i < piece.nodes.size(); ++i) {
+    StoredNode node = piece.nodes[i];
+    node.parent = i == 0 ? tree[root].parent : index_in_tree(node.parent);
+    for (std::uint32_t& child : node.children) child = index_in_tree(child);
+    if (i == 0)
+      tree[root] = node;
+    else
+      tree.push_back(node);
+  }
+  for (Piece::Continuation next : piece.continued) {
+    next.node = index_in_tree(next.node);
+    pending.push_back(next);
+  }
+}
+
+}  // namespace
+
+std::string name_of(const StoredNode& node) {
+  std::string name = "r";
+  for (int bit = node.level - 1; bit >= 0; --bit)
+    name += static_cast<char>(
+        '0' + ((node.cell.x >> bit & 1u) << 2 | (node.cell.y >> bit & 1u) << 1 | (node.cell.z >> bit & 1u)));
+  return name;
+}
+
+WorldBox cell_of(const RootCube& cube, const StoredNode& node) {
+  const double edge = std::ldexp(cube.edge, -node.level);
+  const glm::dvec3 min = cube.min + edge * glm::dvec3(node.cell);
+  return {min, min + edge};
+}
+
+StoredNode child_of(const StoredNode& node, std::uint32_t index, int child) {
+  StoredNode result;
+  result.parent = index;
+  result.level = node.level + 1;
+  result.cell = node.cell * 2u + glm::uvec3(child >> 2 & 1, child >> 1 & 1, child & 1);
+  return result;
+}
+
+std::vector<StoredNode> read_whole_hierarchy(const TreeStore& store) {
+  std::vector<StoredNode> tree;
+  const Piece first = store.root_piece();
+  if (first.nodes.empty()) return tree;
+  tree.emplace_back();
+  Pending pending;
+  PiecesRead read(store.info().source.path);
+  append_piece(tree, 0, first, pending);
+  while (!pending.empty()) {
+    const Piece::Continuation next = pending.front();
+    pending.pop_front();
+    read.add(next, tree[next.node]);
+    append_piece(tree, next.node, store.read_piece(next, tree[next.node]), pending);
+  }
+  return tree;
+}
+
+std::vector<StoredNode> in_store_order(const TreeStore& store, std::span<const StoredNode> hierarchy) {
+  std::vector<StoredNode> nodes;
+  for (const StoredNode& node : hierarchy)
+    if (node.byte_size > 0) nodes.push_back(node);
+  std::ranges::stable_sort(nodes, {}, &StoredNode::byte_offset);
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const StoredNode& before = nodes[i - 1];
+    if (nodes[i].byte_offset - before.byte_offset < before.byte_size)
+      throw Error(
+          fmt::format("{}: node {} begins at byte {} of the points, inside node {}, which holds {} bytes from "
+                      "byte {} on. The tree is damaged; build or copy it again.",
+                      store.info().source.path, name_of(nodes[i]), nodes[i].byte_offset, name_of(before),
+                      before.byte_size, before.byte_offset));
+  }
+  return nodes;
+}
+
+}  // namespace stipple

@@ -1,0 +1,236 @@
+// `stipple render` from end to end.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "render/measure/image.h"
+#include "render/measure/psnr.h"
+#include "tests/command/run_stipple.h"
+#include "tests/measure/npy_reader.h"
+
+namespace stipple::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kPoints = 20'000;
+constexpr const char* kRasters[] = {"points", "compute"};
+
+class RenderCommand : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return folder_.path(name); }
+  Outcome render(const std::string& arguments) const {
+    return run_stipple(folder_, "render " + city_ + " --size 160x90 -o " + path("out.png") + " " + arguments);
+  }
+  // Draws to the named picture and expects that to work.
+  Image picture(const std::string& name, const std::string& arguments) const {
+    const Outcome outcome =
+        run_stipple(folder_, "render " + city_ + " --size 160x90 -o " + path(name) + " " + arguments);
+    EXPECT_EQ(outcome.code, 0) << arguments << ": " << outcome.err;
+    return read_png(path(name));
+  }
+  void expect_wrong_usage(const std::string& arguments, const std::string& named) const {
+    const Outcome outcome = render(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_TRUE(contains(outcome.err, named)) << arguments;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_FALSE(fs::exists(path("out.png"))) << arguments;
+  }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name)) << text;
+    return path(name);
+  }
+
+  const ScratchFolder folder_;
+  const std::string city_ = city_file(folder_, kPoints);
+};
+
+TEST_F(RenderCommand, EveryModeAndRasterEndsWithTheSamePictureAndFullStats) {
+  const Image reference = picture("reference.png", "--mode reference");
+  for (const std::string raster : kRasters) {
+    const Image all = picture("brute-force.png", "--mode brute-force --raster " + raster);
+    EXPECT_GT(psnr_db(mean_squared_error(all, reference)), raster == "compute" ? 35.0 : 15.0);
+    for (const std::string mode : {"brute-force", "hierarchical", "unstructured"}) {
+      const std::string name = mode + "-" + raster;
+      const Image drawn = picture(
+          name + ".png", "--mode " + mode + " --raster " + raster + " --budget 3k --stats " + path("stats.json"));
+      EXPECT_EQ(drawn.rgb, all.rgb) << name;
+      const Json stats = json_file(path("stats.json"));
+      for (const char* key : {"points_total", "points_drawn", "points_reprojected", "frames", "converged", "ms",
+                              "covered_pixels", "nodes_visible", "nodes_occluded", "bytes_read", "gl_renderer",
+                              "version", "seed", "budget", "points_hash", "machine", "view", "mode", "raster"})
+        EXPECT_TRUE(stats.contains(key)) << name << " " << key;
+      EXPECT_EQ(stats.at("mode"), mode);
+      EXPECT_EQ(stats.at("raster"), raster);
+      EXPECT_EQ(stats.at("points_total"), kPoints);
+      EXPECT_EQ(stats.at("converged"), true);
+      EXPECT_EQ(stats.at("frames").get<int>() > 1, mode != "brute-force") << name;
+      EXPECT_EQ(stats.at("nodes_visible").get<int>() > 0, mode == "hierarchical") << name;
+    }
+  }
+}
+
+TEST_F(RenderCommand, CompareSaysInfForTwoConvergedModes) {
+  picture("a.png", "--mode hierarchical --budget 5k");
+  picture("b.png", "--mode unstructured --budget 7k --seed 99");
+  const Outcome outcome = run_stipple(folder_, "compare " + path("a.png") + " " + path("b.png") + " --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out).at("psnr_db"), "inf");
+}
+
+TEST_F(RenderCommand, UntilFrameOneDrawsOneBudget) {
+  const Outcome outcome = render("--until frame:1 --budget 1k --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json stats = Json::parse(outcome.out);
+  EXPECT_EQ(stats.at("frames"), 1);
+  EXPECT_EQ(stats.at("points_drawn"), 1'000);
+  EXPECT_EQ(stats.at("points_reprojected"), 0);
+  EXPECT_EQ(stats.at("converged"), false);
+}
+
+TEST_F(RenderCommand, ACameraFileAndItsOptionsGiveTheSamePicture) {
+  const std::string camera = write("camera.json", R"({"eye": [-50.5, -60, 70], "target": [40, 40.25, 0],
+                                                      "up": [0, 0.1, 1], "fov_deg": 47.5})");
+  const Image by_file = picture("a.png", "--camera " + camera);
+  const Image by_options = picture("b.png", "--eye=-50.5,-60,70 --target 40,40.25,0 --up 0,0.1,1 --fov 47.5");
+  EXPECT_EQ(by_file.rgb, by_options.rgb);
+  EXPECT_NE(by_file.rgb, picture("c.png", "").rgb);
+}
+
+glm::dvec3 vector_of(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+TEST_F(RenderCommand, PositionsAndDepthsAgreeWithEachOtherAndTheCamera) {
+  picture("out.png",
+          "--stats " + path("s.json") + " --position-out " + path("p.npy") + " --depth-out " + path("d.npy"));
+  const Json stats = json_file(path("s.json"));
+  const Json& view = stats.at("view");
+  const glm::dvec3 eye = vector_of(view.at("eye"));
+  const double cot = 1.0 / std::tan(glm::radians(view.at("fov_deg").get<double>()) / 2);
+  const NpyFile position_file = read_npy(path("p.npy"));
+  EXPECT_TRUE(contains(position_file.header, "'shape': (90, 160, 3,)"));
+  EXPECT_TRUE(contains(read_npy(path("d.npy")).header, "'shape': (90, 160,)"));
+  const auto positions = position_file.values<double>();
+  const auto depths = read_npy(path("d.npy")).values<float>();
+  ASSERT_EQ(depths.size(), 90u * 160u);
+  ASSERT_EQ(positions.size(), 3 * depths.size());
+
+  std::uint64_t covered = 0;
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const glm::dvec3 p(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
+    if (std::isinf(depths[i])) {
+      EXPECT_TRUE(std::isnan(p.x) && std::isnan(p.y) && std::isnan(p.z)) << i;
+      continue;
+    }
+    ++covered;
+    const glm::dvec3 r = p - eye;
+    const double depth = glm::dot(vector_of(view.at("forward")), r);
+    EXPECT_NEAR(depths[i], depth, 1e-5 * depth);
+    const double x = 80 * (1 + glm::dot(vector_of(view.at("right")), r) * cot * 90 / 160 / depth);
+    const double y = 45 * (1 - glm::dot(vector_of(view.at("up")), r) * cot / depth);
+    EXPECT_NEAR(x, static_cast<double>(i % 160) + 0.5, 0.501) << i;
+    EXPECT_NEAR(y, static_cast<double>(i / 160) + 0.5, 0.501) << i;
+  }
+  EXPECT_EQ(stats.at("covered_pixels"), covered);
+}
+
+TEST_F(RenderCommand, BackgroundAndPointSizeAreSeen) {
+  const Image small = picture("a.png", "--background 010203");
+  const Image large = picture("b.png", "--background 010203 --point-size 3");
+  const auto empty = [](const Image& image) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+      count += image.rgb[i] == 1 && image.rgb[i + 1] == 2 && image.rgb[i + 2] == 3;
+    return count;
+  };
+  EXPECT_GT(empty(large), 0u);
+  EXPECT_GT(empty(small), empty(large));
+}
+
+TEST_F(RenderCommand, SettingsTravelInThePicture) {
+  picture("a.png", "--seed 77");
+  EXPECT_TRUE(contains(text_of(path("a.png")), "\"seed\":77"));
+}
+
+TEST_F(RenderCommand, WrongUsageNamesTheOption) {
+  expect_wrong_usage("--mode fastest", "--mode fastest");
+  expect_wrong_usage("--raster crayons", "--raster crayons");
+  expect_wrong_usage("--size 0x10", "--size");
+  expect_wrong_usage("--size 20000x10", "--size");
+  expect_wrong_usage("--eye 1,2,3", "--target");
+  expect_wrong_usage("--target 1,2,3", "--eye");
+  expect_wrong_usage("--eye 1,2,3 --target 1,2,3", "eye and target");
+  expect_wrong_usage("--eye 1,2 --target 0,0,0", "--eye");
+  expect_wrong_usage("--up 0,0,1", "--eye");
+  expect_wrong_usage("--eye 1,2,3 --target 0,0,0 --fov 180", "field of view");
+  expect_wrong_usage("--color colour", "--color colour");
+  expect_wrong_usage("--budget 0", "--budget");
+  expect_wrong_usage("--fps 20 --budget 1k", "--fps");
+  expect_wrong_usage("--fps 0", "--fps");
+  expect_wrong_usage("--point-size -1", "--point-size");
+  expect_wrong_usage("--point-size 1e30", "point size 1e+30");
+  expect_wrong_usage("--point-size 1e30 --raster points", "point size 1e+30");
+  expect_wrong_usage("--background red", "--background");
+  expect_wrong_usage("--until later", "--until");
+  expect_wrong_usage("--until frame:0", "--until frame:");
+  expect_wrong_usage("--until ms:-1", "--until ms:");
+  expect_wrong_usage("--seed -1", "--seed");
+}
+
+TEST_F(RenderCommand, ACameraFileWithSeveralViewsIsWrongUsage) {
+  const std::string two = write("two.json", R"({"views": [{"eye": [0,0,9], "target": [0,0,0]},
+                                                           {"eye": [9,0,0], "target": [0,0,0]}]})");
+  expect_wrong_usage("--camera " + two, two);
+  expect_wrong_usage("--camera " + two + " --eye 1,2,3 --target 0,0,0", "--camera");
+}
+
+TEST_F(RenderCommand, FailuresNameTheFileAndLeaveNoPicture) {
+  const auto expect_failure = [&](const std::string& input, const std::string& output, const std::string& more,
+                                  const std::string& named) {
+    const Outcome outcome = run_stipple(folder_, "render " + input + " --size 16x9 -o " + output + " " + more);
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("stipple: ")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, named));
+  };
+  expect_failure(path("missing.las"), path("out.png"), "", path("missing.las"));
+  expect_failure(write("text.las", "no points here"), path("out.png"), "", "at byte 0");
+  expect_failure(city_, path("out.png"), "--camera " + write("bad.json", "{\"eye\": "), "bad.json: at byte");
+  expect_failure(city_, path("out.png"), "--camera " + write("huge.json", R"({"eye": [1e999,0,0], "target": [0,0,0]})"),
+                 "huge.json");
+  EXPECT_FALSE(fs::exists(path("out.png")));
+  expect_failure(city_, path("missing/out.png"), "", path("missing/out.png"));
+  expect_failure(city_, path("out.png"), "--stats " + path("missing/s.json"), path("missing/s.json"));
+  expect_failure(city_, path("out.png"), "--depth-out " + path("missing/d.npy"), path("missing/d.npy"));
+  for (const std::string& name : folder_.names()) EXPECT_FALSE(contains(name, ".part-"));
+}
+
+TEST_F(RenderCommand, APathThatIsNoUtf8IsDrawnAllTheSame) {
+  fs::copy_file(city_, path("\xE9t\xE9.las"));
+  const Outcome outcome = run_stipple(
+      folder_, "render " + path("\xE9t\xE9.las") + " --size 16x9 -o " + path("out.png") + " --stats " + path("s.json"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(json_file(path("s.json")).at("points_total"), kPoints);
+}
+
+TEST_F(RenderCommand, AnEmptyCloudAndASinglePointAreDrawn) {
+  for (const std::size_t points : {std::size_t{0}, std::size_t{1}}) {
+    const std::string file = folder_.write("few.las", LasFile{.points = points}.bytes());
+    for (const std::string mode : {"reference", "brute-force", "hierarchical", "unstructured"}) {
+      const Outcome outcome =
+          run_stipple(folder_, "render " + file + " --size 16x9 --json -o " + path("few.png") + " --mode " + mode);
+      ASSERT_EQ(outcome.code, 0) << mode << ": " << outcome.err;
+      const Json stats = Json::parse(outcome.out);
+      EXPECT_EQ(stats.at("converged"), true) << mode;
+      EXPECT_EQ(stats.at("covered_pixels"), points) << mode;
+    }
+  }
+}
+
+TEST_F(RenderCommand, AFrameRateInsteadOfABudgetConvergesToo) {
+  EXPECT_EQ(picture("a.png", "--fps 30").rgb, picture("b.png", "--budget 4G").rgb);
+}
+
+}  // namespace
+}  // namespace stipple::test

@@ -1,0 +1,119 @@
+#include "src/study/curve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "render/measure/psnr.h"
+
+namespace stipple {
+namespace {
+
+double mse_of(double db) {
+  return 255.0 * 255.0 / std::pow(10.0, db / 10.0);
+}
+
+// A curve whose frames have these decibels (infinite: equal to the reference) and draw 100 points in 10 ms each.
+Curve curve_of(const std::vector<double>& decibels, double ms_scale = 1.0) {
+  Curve curve{"city", "low", "unstructured", "compute", 0, {}};
+  for (std::size_t i = 0; i < decibels.size(); ++i) {
+    CurvePoint point;
+    point.state.frame = i + 1;
+    point.state.points_drawn = 100 * (i + 1);
+    point.state.milliseconds = 10.0 * ms_scale * static_cast<double>(i + 1);
+    point.state.budget = 100;
+    point.mse = std::isinf(decibels[i]) ? 0.0 : mse_of(decibels[i]);
+    curve.points.push_back(point);
+  }
+  return curve;
+}
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+TEST(Curve, ReachesAQualityAtItsFirstFrameThatHasIt) {
+  const Curve curve = curve_of({20, 31, 29, 30.5, 41});
+  EXPECT_EQ(reaches(curve, 30)->points_drawn, 200u);
+  EXPECT_EQ(reaches(curve, 30)->milliseconds, 20.0);
+  EXPECT_EQ(reaches(curve, 40)->points_drawn, 500u);
+  EXPECT_FALSE(reaches(curve, 45).has_value());
+  EXPECT_FALSE(reaches(Curve{}, 30).has_value());
+}
+
+TEST(Curve, AQualityMetExactlyIsReached) {
+  Curve curve = curve_of({20});
+  curve.points[0].mse = 65.025;  // 10 log10(65025 / 65.025) = 30 exactly
+  EXPECT_TRUE(reaches(curve, psnr_db(65.025)).has_value());
+}
+
+TEST(Curve, EqualToTheReferenceReachesEveryQuality) {
+  EXPECT_EQ(reaches(curve_of({20, kInf}), 1e6)->points_drawn, 200u);
+}
+
+TEST(Curve, IdenticalIsAboutBruteForceNotAboutDecibels) {
+  Curve curve = curve_of({kInf, 40, 40});
+  EXPECT_FALSE(reaches_identical(curve).has_value());
+  curve.points[1].identical = true;
+  EXPECT_EQ(reaches_identical(curve)->points_drawn, 200u);
+}
+
+TEST(Summary, GivesMedianAndSpreadOfTheTimes) {
+  for (const std::size_t repeats : {1u, 3u, 4u}) {
+    std::vector<Curve> curves;
+    for (std::size_t r = 0; r < repeats; ++r)
+      curves.push_back(curve_of({20, 35}, std::vector<double>{5.0, 1.0, 2.0, 4.0}[r]));
+    const Json reached = summary_json(curves).at("reached").at("30_db");
+    EXPECT_EQ(reached.at("points"), 200);
+    EXPECT_EQ(reached.at("ms_median"), repeats == 1 ? 100.0 : repeats == 3 ? 40.0 : 60.0) << repeats;
+    EXPECT_EQ(reached.at("ms_min"), repeats == 1 ? 100.0 : 20.0);
+    EXPECT_EQ(reached.at("ms_max"), 100.0);
+  }
+}
+
+TEST(Summary, AQualityThatNotAllRepeatsReachIsNull) {
+  const std::vector<Curve> curves{curve_of({20, 35}), curve_of({20, 25})};
+  const Json summary = summary_json(curves);
+  EXPECT_TRUE(summary.at("reached").at("30_db").is_null());
+  for (const char* key : {"30_db", "35_db", "40_db", "45_db", "identical"})
+    EXPECT_TRUE(summary.at("reached").contains(key)) << key;
+}
+
+TEST(Summary, EndsWithTheLastFrame) {
+  Curve curve = curve_of({20, kInf});
+  curve.points.back().state.converged = true;
+  curve.points.back().state.covered_pixels = 77;
+  curve.points.back().identical = true;
+  const Json summary = summary_json({&curve, 1});
+  EXPECT_EQ(summary.at("frames"), 2);
+  EXPECT_EQ(summary.at("points_drawn"), 200);
+  EXPECT_EQ(summary.at("covered_pixels"), 77);
+  EXPECT_EQ(summary.at("psnr_db"), "inf");
+  EXPECT_EQ(summary.at("converged"), true);
+  EXPECT_EQ(summary.at("identical_to_brute_force"), true);
+}
+
+TEST(CurvesCsv, HasALineAFrameBelowItsHeader) {
+  Curve curve = curve_of({20, kInf});
+  curve.points[1].identical = true;
+  curve.points[1].state.converged = true;
+  curve.points[1].state.covered_pixels = 9;
+  curve.points[1].state.points_reprojected = 8;
+  EXPECT_EQ(curves_csv({&curve, 1}),
+            "dataset,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,covered_pixels,mse,"
+            "psnr_db,identical,converged\n"
+            "city,low,unstructured,compute,0,1,100,100,0,10.000,0,650.25,20.000000,0,0\n"
+            "city,low,unstructured,compute,0,2,100,200,8,20.000,9,0,inf,1,1\n");
+}
+
+TEST(CurvesCsv, QuotesWhatWouldBreakALine) {
+  Curve curve = curve_of({20});
+  curve.dataset = "a,b";
+  curve.view = "say \"hi\"";
+  EXPECT_NE(curves_csv({&curve, 1}).find("\n\"a,b\",\"say \"\"hi\"\"\",unstructured"), std::string::npos);
+  curve.dataset = "two\nlines";
+  curve.view = "carriage\rreturn";
+  EXPECT_NE(curves_csv({&curve, 1}).find("\n\"two\nlines\",\"carriage\rreturn\",unstructured"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stipple
