@@ -56,9 +56,11 @@ void main() {
     case 0u: chunk_points[0].at[place] = point; chunk_ids[0].at[place] = id; break;
     case 1u: chunk_points[1].at[place] = point; chunk_ids[1].at[place] = id; break;
     case 2u: chunk_points[2].at[place] = point; chunk_ids[2].at[place] = id; break;
+#if CHUNKS == 7
     case 3u: chunk_points[3].at[place] = point; chunk_ids[3].at[place] = id; break;
     case 4u: chunk_points[4].at[place] = point; chunk_ids[4].at[place] = id; break;
     case 5u: chunk_points[5].at[place] = point; chunk_ids[5].at[place] = id; break;
     case 6u: chunk_points[6].at[place] = point; chunk_ids[6].at[place] = id; break;
+#endif
   }
 }

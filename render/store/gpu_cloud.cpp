@@ -8,9 +8,14 @@
 namespace stipple {
 namespace {
 
-// Buffers a shuffle dispatch writes to: with the staged points and ids and as many id buffers they fill the 16 storage
-// blocks that every driver gives.
-constexpr std::size_t kBoundChunks = 7;
+// Chunks a shuffle dispatch writes to. Each takes two storage blocks, the staged points and ids two more: 16 are usual,
+// 8 are the least a driver gives.
+std::size_t bound_chunks() {
+  GLint blocks = 0;
+  glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &blocks);
+  return blocks >= 16 ? 7 : 3;
+}
+
 // Points staged at once: 16 MiB.
 constexpr std::size_t kStagedPoints = 1u << 20;
 
@@ -28,14 +33,14 @@ std::uint32_t permute(std::uint32_t x, std::uint32_t prime) {
 }
 
 // Scatters the staged points to the chunks, some of which are bound at a time.
-void scatter(GpuCloud& cloud, std::size_t staged) {
+void scatter(GpuCloud& cloud, std::size_t staged, std::size_t bound) {
   const auto chunks = cloud.chunks();
-  for (std::size_t base = 0; base < chunks.size(); base += kBoundChunks) {
-    for (std::size_t k = 0; k < kBoundChunks; ++k) {
+  for (std::size_t base = 0; base < chunks.size(); base += bound) {
+    for (std::size_t k = 0; k < bound; ++k) {
       // Unused bindings repeat the last chunk: no slot leads there
       const GpuCloud::Chunk& chunk = chunks[std::min(base + k, chunks.size() - 1)];
       chunk.points.bind_storage(static_cast<GLuint>(2 + k));
-      chunk.ids.bind_storage(static_cast<GLuint>(2 + kBoundChunks + k));
+      chunk.ids.bind_storage(static_cast<GLuint>(2 + bound + k));
     }
     glUniform1ui(4, static_cast<GLuint>(base));
     dispatch_items(staged, 128);
@@ -81,9 +86,10 @@ GpuCloud upload_shuffled(const PointSet& points, std::uint64_t seed) {
   GpuCloud cloud(points.size());
   const auto total = static_cast<std::uint32_t>(points.size());
   const std::uint32_t prime = largest_shuffle_prime(total);
+  const std::size_t bound = bound_chunks();
   const Program shuffle = Program::compute(
       "shuffle.glsl",
-      {{"CHUNKS", std::to_string(kBoundChunks)}, {"CHUNK_POINTS", std::to_string(GpuCloud::kChunkPoints) + "u"}});
+      {{"CHUNKS", std::to_string(bound)}, {"CHUNK_POINTS", std::to_string(GpuCloud::kChunkPoints) + "u"}});
   GpuBuffer staged_points(kStagedPoints * sizeof(PackedPoint));
   GpuBuffer staged_ids(kStagedPoints * sizeof(std::uint32_t));
 
@@ -99,7 +105,7 @@ GpuCloud upload_shuffled(const PointSet& points, std::uint64_t seed) {
     glUniform1ui(2, prime);
     glUniform1ui(3, prime ? static_cast<GLuint>(seed % prime) : 0);
     glUniform1i(5, points.ids.empty() ? 0 : 1);
-    scatter(cloud, count);
+    scatter(cloud, count, bound);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   }
   return cloud;

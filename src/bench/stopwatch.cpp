@@ -4,12 +4,12 @@
 #include <chrono>
 #include <utility>
 
+#include "src/run/median.h"
+
 namespace stipple {
 
 double Timing::median_ms() const {
-  std::vector<double> sorted = milliseconds;
-  std::ranges::sort(sorted);
-  return sorted[sorted.size() / 2];
+  return median(milliseconds);
 }
 
 Json Timing::json() const {

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "octree/core/error.h"
+#include "render/store/stream_buffer.h"
 #include "src/cli/cli.h"
 
 namespace stipple {
@@ -16,10 +15,11 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
       .add_option("--raster", options.raster,
                   "Rasterizer: compute (shaders and atomics) or points (GL_POINTS, as the papers draw).")
       ->capture_default_str();
-  CLI::Option* budget = command
-                            .add_option("--budget", options.budget,
-                                        "Points added a frame, plain or with k or M for thousands or millions.")
-                            ->capture_default_str();
+  CLI::Option* budget =
+      command
+          .add_option("--budget", options.budget,
+                      "Points added a frame, at most 4194304, plain or with k or M for thousands or millions.")
+          ->capture_default_str();
   command.add_option("--fps", options.fps, "Instead of a fixed budget: steer it to this many frames a second.")
       ->excludes(budget);
   command.add_option("--point-size", options.point_size, "Edge of a point's square in pixels.")->capture_default_str();
@@ -41,8 +41,11 @@ RasterizerKind rasterizer_of(const DrawOptions& options) {
 
 BudgetPolicy budget_of(const DrawOptions& options) {
   BudgetPolicy policy;
-  policy.points =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(parse_count("--budget", options.budget), 0xFFFFFFFFu));
+  const std::uint64_t points = parse_count("--budget", options.budget);
+  if (points > StreamBuffer::kLargestSection)
+    throw UsageError(fmt::format("--budget {}: expected at most {} points a frame; mode brute-force draws all at once",
+                                 options.budget, StreamBuffer::kLargestSection));
+  policy.points = static_cast<std::uint32_t>(points);
   if (!options.fps.empty()) policy.frames_per_second = parse_positive("--fps", options.fps);
   return policy;
 }

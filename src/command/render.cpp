@@ -147,7 +147,8 @@ void run(const Options& options) {
              {"background", options.draw.background},
              {"load_ms", dataset.load_seconds * 1e3},
              {"build_ms", dataset.build_seconds * 1e3}};
-  if (!options.draw.fps.empty()) stats["budget"] = options.draw.fps + " frames/s";
+  const auto fps = budget_of(options.draw).frames_per_second;
+  stats["target_fps"] = fps ? Json(*fps) : Json();
   stats.update(picture.stats);
   stats.update(dataset_provenance(dataset));
   stats["view"] = view_provenance(view);

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "render/measure/psnr.h"
+#include "src/run/median.h"
 
 namespace stipple {
 namespace {
@@ -28,17 +29,17 @@ std::string csv_field(const std::string& text) {
 // Over the repeats: null when any of them did not get there.
 Json reached_json(std::span<const Curve> repeats, const std::function<std::optional<Reached>(const Curve&)>& reach) {
   std::vector<double> times;
-  std::uint64_t points = 0;
+  std::vector<double> points;
   for (const Curve& curve : repeats) {
     const std::optional<Reached> reached = reach(curve);
     if (!reached) return nullptr;
     times.push_back(reached->milliseconds);
-    points = reached->points_drawn;
+    points.push_back(static_cast<double>(reached->points_drawn));
   }
-  std::ranges::sort(times);
-  const std::size_t middle = times.size() / 2;
-  const double median = times.size() % 2 ? times[middle] : 0.5 * (times[middle - 1] + times[middle]);
-  return {{"points", points}, {"ms_median", median}, {"ms_min", times.front()}, {"ms_max", times.back()}};
+  return {{"points", static_cast<std::uint64_t>(median(points))},
+          {"ms_median", median(times)},
+          {"ms_min", std::ranges::min(times)},
+          {"ms_max", std::ranges::max(times)}};
 }
 
 }  // namespace

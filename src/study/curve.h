@@ -46,7 +46,7 @@ inline constexpr double kQualities[] = {30.0, 35.0, 40.0, 45.0};
 // points_reprojected, ms, covered_pixels, mse, psnr_db (inf when identical to the reference), identical, converged.
 std::string curves_csv(std::span<const Curve> curves);
 
-// Of the repeats of one mode and view: work to each quality (median and spread of the times; points repeat exactly),
+// Of the repeats of one mode and view: work to each quality (medians, and the spread of the times),
 // final quality and whether it ended identical to brute force.
 Json summary_json(std::span<const Curve> repeats);
 

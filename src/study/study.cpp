@@ -34,6 +34,8 @@ class FrameKeeper {
  public:
   FrameKeeper(fs::path folder, std::string provenance)
       : folder_(std::move(folder)), provenance_(std::move(provenance)) {
+    // Frames of an earlier study would pass for this one's
+    fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
   void offer(const FrameState& state, const Image& image) {
@@ -193,10 +195,9 @@ StudyResult run_study(const StudySettings& settings, const HeadlessContext& cont
       json["load_ms"] = 1e3 * dataset.load_seconds;
       json["build_ms"] = 1e3 * dataset.build_seconds;
       datasets.push_back(json);
-    } catch (const UsageError&) {
-      throw;
-    } catch (const Error& e) {
-      result.failures.emplace_back(e.what());
+    } catch (const std::exception& e) {
+      const std::string what = e.what();
+      result.failures.push_back(what.starts_with(settings.inputs[i]) ? what : settings.inputs[i] + ": " + what);
     }
   }
 
