@@ -2,45 +2,47 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "render/method/method.h"
+#include "render/store/point_supply.h"
 #include "render/store/stream_buffer.h"
 
 namespace stipple {
 
-// The points stay in main memory. For each view the visible clusters are put in order, front to back; then rounds:
-// every cluster streams as many points as it is estimated to cover pixels, in the next round as many again, then twice
-// that, until nothing is left. Each frame refills a section of one vertex buffer and carries the last frame as a grid
-// of points, one a pixel. Within a cluster the points are shuffled, so that what a round reads is an even sample.
+// The points stay in main memory or on disk. For each view the visible clusters are put in order, front to back; then
+// rounds: every cluster streams as many points as it is estimated to cover pixels, in the next round as many again, then
+// twice that, until nothing is left. Each frame refills a section of one vertex buffer and carries the last frame as a
+// grid of points, one a pixel. Within a cluster the points are shuffled, so that what a round reads is an even sample.
 class Hierarchical final : public Method {
  public:
-  // `points` in store order of the octree. Budgets above `largest_budget` (or StreamBuffer::kLargestSection) are cut.
-  Hierarchical(const PointSet& points, const Octree& octree, std::uint32_t largest_budget);
+  // Budgets above `largest_budget` (or StreamBuffer::kLargestSection) are cut.
+  Hierarchical(std::unique_ptr<PointSupply> supply, std::uint32_t largest_budget);
 
   Carry carry() const override { return Carry::grid; }
   void start_view(const View& view) override;
   Selection select(std::uint32_t budget) override;
-  bool finished() const override { return left_ == 0; }
-  SelectionCounts counts() const override { return counts_; }
+  bool finished() const override { return to_request_ == 0 && under_way_ == 0; }
+  SelectionCounts counts() const override { return {supply_->visible_nodes(), supply_->bytes_read()}; }
 
  private:
   struct Reading {
-    std::uint32_t first;    // slot
-    std::uint32_t count;    // points of the cluster
-    std::uint32_t taken;    // of them drawn for this view
-    std::uint32_t allowed;  // of them to be drawn by the end of this round
+    std::uint32_t handle;
+    std::uint32_t count;      // points of the cluster
+    std::uint32_t requested;  // of them for this view
+    std::uint32_t allowed;    // of them to be requested by the end of this round
   };
 
+  void request_up_to(std::uint64_t under_way);
   void next_round();
 
-  const PointSet& points_;
-  const Octree& octree_;
+  std::unique_ptr<PointSupply> supply_;
   StreamBuffer stream_;
   std::vector<Reading> readings_;  // front to back
   std::size_t next_ = 0;           // reading to go on with in this round
-  std::uint64_t left_ = 0;         // points not drawn yet for this view
-  SelectionCounts counts_;
+  std::uint64_t to_request_ = 0;   // points not requested yet for this view
+  std::uint64_t under_way_ = 0;    // points requested and not drawn yet
 };
 
 }  // namespace stipple

@@ -1,11 +1,13 @@
 #include "render/method/method.h"
 
+#include <algorithm>
 #include <array>
 
 #include "octree/core/error.h"
 #include "render/method/brute_force.h"
 #include "render/method/hierarchical.h"
 #include "render/method/unstructured.h"
+#include "render/store/memory_supply.h"
 
 namespace stipple {
 namespace {
@@ -47,7 +49,10 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
       return std::make_unique<BruteForce>(points);
     case Mode::hierarchical:
       if (!octree) throw Error("mode hierarchical needs an octree");
-      return std::make_unique<Hierarchical>(points, *octree, options.largest_budget);
+      // A section for more points than there are would stay empty
+      return std::make_unique<Hierarchical>(
+          std::make_unique<MemorySupply>(points, *octree),
+          std::min(options.largest_budget, static_cast<std::uint32_t>(points.size())));
     case Mode::unstructured:
       return std::make_unique<Unstructured>(points, options.seed);
   }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "octree/core/error.h"
 
@@ -45,27 +46,20 @@ std::uint32_t grey_color(double t) {
   return pack(v, v, v);
 }
 
-// rgba(i) for all points, on all cores.
-template <class Rgba>
-void color_points(PointSet& set, const Rgba& rgba) {
-  tbb::parallel_for(Range(0, set.size(), 65536), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) set.points[i].rgba = rgba(i);
-  });
+bool has_rgb16(const Column& column) {
+  const Attribute& attribute = column.attribute;
+  return attribute.name == "rgb" && attribute.type == ScalarType::u16 && attribute.components == 3;
 }
 
-void color_by_rgb(const Column& column, PointSet& set) {
-  const auto values = column.as<std::uint16_t>();
-  const auto largest = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, values.size(), 65536), std::uint16_t{0},
-      [&](const auto& range, std::uint16_t most) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) most = std::max(most, values[i]);
-        return most;
-      },
-      [](std::uint16_t a, std::uint16_t b) { return std::max(a, b); });
-  const int shift = largest > 255 ? 8 : 0;
-  color_points(set, [&](std::size_t i) {
-    return pack(values[3 * i] >> shift, values[3 * i + 1] >> shift, values[3 * i + 2] >> shift);
-  });
+// Whether all channels of all points are below 256.
+bool fits_8_bits(std::span<const std::uint16_t> values) {
+  return tbb::parallel_reduce(
+             Range(0, values.size(), 65536), std::uint16_t{0},
+             [&](const Range& range, std::uint16_t most) {
+               for (std::size_t i = range.begin(); i < range.end(); ++i) most = std::max(most, values[i]);
+               return most;
+             },
+             [](std::uint16_t a, std::uint16_t b) { return std::max(a, b); }) <= 255;
 }
 
 // The 1st and 99th percentile of value(i), from at most a million of them; rounded outwards, so that two values differ.
@@ -86,12 +80,18 @@ std::pair<double, double> robust_range(std::size_t count, const Value& value) {
   return {low, at(0.99)};
 }
 
+// out[i].rgba = rgba(i)
+template <class Rgba>
+void color_points(std::span<PackedPoint> out, const Rgba& rgba) {
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].rgba = rgba(i);
+}
+
+// Colours by where value(i) lies between the map's ends.
 template <class Value, class Rgba>
-void color_by_value(PointSet& set, const Value& value, const Rgba& rgba) {
-  const auto [low, high] = robust_range(set.size(), value);
-  const double stretch = high > low ? 1.0 / (high - low) : 0.0;
-  color_points(set, [&, low = low](std::size_t i) {
-    const double t = (value(i) - low) * stretch;
+void color_by_value(const ColorMap& map, std::span<PackedPoint> out, const Value& value, const Rgba& rgba) {
+  const double stretch = map.high > map.low ? 1.0 / (map.high - map.low) : 0.0;
+  color_points(out, [&](std::size_t i) {
+    const double t = (value(i) - map.low) * stretch;
     return rgba(t > 0.0 ? std::min(t, 1.0) : 0.0);  // not a number becomes 0
   });
 }
@@ -115,35 +115,71 @@ std::vector<std::string> attributes_for_color(const std::string& color) {
   return color == "height" ? std::vector<std::string>{} : std::vector{color};
 }
 
-PointSet make_point_set(const Cloud& cloud, const std::string& color) {
+ColorMap map_colors(const Cloud& cloud, const std::string& color) {
+  ColorMap map{.attribute = color};
+  if (color == "height") {
+    std::tie(map.low, map.high) =
+        robust_range(cloud.size(), [&](std::size_t i) { return static_cast<double>(cloud.positions[i].z); });
+    return map;
+  }
+  const Column* column = cloud.find(color);
+  if (!column) throw Error(fmt::format("{}: attribute {} was not read", cloud.info.path, color));
+  if (has_rgb16(*column)) {
+    map.kind = fits_8_bits(column->as<std::uint16_t>()) ? ColorMap::Kind::rgb8 : ColorMap::Kind::rgb16;
+  } else if (color == "classification") {
+    map.kind = ColorMap::Kind::classes;
+  } else {
+    map.kind = color == "intensity" ? ColorMap::Kind::grey : ColorMap::Kind::ramp;
+    std::tie(map.low, map.high) = robust_range(cloud.size(), [&](std::size_t i) { return value_at(*column, i); });
+  }
+  return map;
+}
+
+void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, const Column* column, std::size_t first,
+                 std::span<PackedPoint> out) {
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].position = positions[first + i];
+  const auto value = [&](std::size_t i) {
+    return column ? value_at(*column, first + i) : static_cast<double>(positions[first + i].z);
+  };
+  switch (map.kind) {
+    case ColorMap::Kind::rgb8:
+    case ColorMap::Kind::rgb16: {
+      const auto values = column->as<std::uint16_t>().subspan(3 * first);
+      const int shift = map.kind == ColorMap::Kind::rgb16 ? 8 : 0;
+      color_points(out, [&](std::size_t i) {
+        return pack(values[3 * i] >> shift & 0xFFu, values[3 * i + 1] >> shift & 0xFFu,
+                    values[3 * i + 2] >> shift & 0xFFu);
+      });
+      break;
+    }
+    case ColorMap::Kind::classes:
+      color_points(
+          out, [&](std::size_t i) { return kClassColors[static_cast<std::size_t>(value(i)) % kClassColors.size()]; });
+      break;
+    case ColorMap::Kind::grey:
+      color_by_value(map, out, value, grey_color);
+      break;
+    case ColorMap::Kind::ramp:
+      color_by_value(map, out, value, ramp_color);
+      break;
+  }
+}
+
+PointSet make_point_set(const Cloud& cloud, const ColorMap& map) {
   PointSet set;
   set.grid = cloud.info.grid;
   set.bounds = cloud.bounds;
   set.points.resize(cloud.size());
+  const Column* column = cloud.find(map.attribute);
   tbb::parallel_for(Range(0, cloud.size(), 65536), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) set.points[i].position = cloud.positions[i];
+    pack_points(map, cloud.positions, column, range.begin(),
+                std::span(set.points).subspan(range.begin(), range.size()));
   });
-
-  if (color == "height") {
-    color_by_value(
-        set, [&](std::size_t i) { return static_cast<double>(cloud.positions[i].z); }, ramp_color);
-    return set;
-  }
-  const Column* column = cloud.find(color);
-  if (!column) throw Error(fmt::format("{}: attribute {} was not read", cloud.info.path, color));
-  if (color == "rgb" && column->attribute.type == ScalarType::u16 && column->attribute.components == 3)
-    color_by_rgb(*column, set);
-  else if (color == "classification")
-    color_points(set, [&](std::size_t i) {
-      return kClassColors[static_cast<std::size_t>(value_at(*column, i)) % kClassColors.size()];
-    });
-  else if (color == "intensity")
-    color_by_value(
-        set, [&](std::size_t i) { return value_at(*column, i); }, grey_color);
-  else
-    color_by_value(
-        set, [&](std::size_t i) { return value_at(*column, i); }, ramp_color);
   return set;
+}
+
+PointSet make_point_set(const Cloud& cloud, const std::string& color) {
+  return make_point_set(cloud, map_colors(cloud, color));
 }
 
 }  // namespace stipple

@@ -1,6 +1,8 @@
 // From a cloud's attributes to the packed colour that the GPU holds.
 #pragma once
 
+#include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,12 +18,34 @@ std::string choose_color(const Schema& schema, const std::string& name);
 // The attributes that load_cloud must read to colour by `color`.
 std::vector<std::string> attributes_for_color(const std::string& color);
 
-// Points with ids 0, 1, ... coloured by `color` (as choose_color gives it):
-// - rgb of 16 bits becomes 8 bits by its upper byte, unless no channel of any point exceeds 255: then the file keeps
-//   8-bit values in 16-bit fields, and they are taken as they are.
-// - classification gets a fixed palette (LAS classes 0 to 18, repeating).
-// - intensity becomes grey, every other attribute and height a perceptual ramp, both stretched from the 1st to the 99th
-//   percentile; of attributes with several components, the first.
+// How values of an attribute become colours.
+struct ColorMap {
+  enum class Kind {
+    rgb8,     // the file keeps 8-bit values, in fields of whatever size
+    rgb16,    // 16 bits, of which the upper byte counts
+    classes,  // a fixed palette (LAS classes 0 to 18, repeating)
+    grey,     // black at low to white at high
+    ramp,     // a perceptual ramp from low to high
+  };
+  std::string attribute;  // "height": none, but the position
+  Kind kind = Kind::ramp;
+  double low = 0.0;
+  double high = 1.0;
+};
+
+// The map for `color` (as choose_color gives it), stretched over these points: intensity becomes grey, other attributes
+// and height a ramp from the 1st to the 99th percentile; of attributes with several components, the first. rgb of 16
+// bits is taken as 8 bits when no channel of any point exceeds 255. Throws Error when the cloud lacks the column.
+ColorMap map_colors(const Cloud& cloud, const std::string& color);
+
+// Colours points first, first + 1, ... of `positions` and `column` (the map's attribute; null for height), as many as
+// `out` has room for.
+void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, const Column* column, std::size_t first,
+                 std::span<PackedPoint> out);
+
+// Points with ids 0, 1, ... coloured by the map, on all cores.
+PointSet make_point_set(const Cloud& cloud, const ColorMap& map);
+// The same by the map stretched over the cloud itself.
 PointSet make_point_set(const Cloud& cloud, const std::string& color);
 
 }  // namespace stipple

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cstring>
+#include <numeric>
 #include <vector>
 
 #include "octree/core/error.h"
@@ -33,7 +34,7 @@ StreamBuffer::~StreamBuffer() {
     if (sync) glDeleteSync(sync);
 }
 
-PointRange StreamBuffer::stream(const PointSet& points, std::span<const PointSpan> spans) {
+PointRange StreamBuffer::stream(std::span<const PointPiece> pieces) {
   // The section streamed last is free for the CPU again once this fence, set now, is passed
   if (in_use_[section_]) glDeleteSync(in_use_[section_]);
   in_use_[section_] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -41,19 +42,23 @@ PointRange StreamBuffer::stream(const PointSet& points, std::span<const PointSpa
   constexpr GLuint64 kForever = ~GLuint64{0};
   if (in_use_[section_]) glClientWaitSync(in_use_[section_], GL_SYNC_FLUSH_COMMANDS_BIT, kForever);
 
-  // Where each span goes
+  // Where each piece goes
   const auto base = static_cast<std::uint32_t>(section_ * section_points_);
-  std::vector<std::uint32_t> places(spans.size());
+  std::vector<std::uint32_t> places(pieces.size());
   std::uint32_t end = base;
-  for (std::size_t s = 0; s < spans.size(); ++s) {
-    places[s] = end;
-    end += spans[s].count;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    places[p] = end;
+    end += pieces[p].count;
   }
 
-  tbb::parallel_for(std::size_t{0}, spans.size(), [&](std::size_t s) {
-    const PointSpan& span = spans[s];
-    std::memcpy(mapped_points_ + places[s], points.points.data() + span.first, span.count * sizeof(PackedPoint));
-    for (std::uint32_t i = 0; i < span.count; ++i) mapped_ids_[places[s] + i] = points.id(span.first + i);
+  tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t p) {
+    const PointPiece& piece = pieces[p];
+    std::memcpy(mapped_points_ + places[p], piece.points, piece.count * sizeof(PackedPoint));
+    std::uint32_t* ids = mapped_ids_ + places[p];
+    if (piece.ids)
+      std::memcpy(ids, piece.ids, piece.count * sizeof(std::uint32_t));
+    else
+      std::iota(ids, ids + piece.count, piece.first_id);
   });
   return {&points_, &ids_, base, end - base};
 }

@@ -11,8 +11,10 @@
 namespace stipple {
 
 // Consecutive points in main memory.
-struct PointSpan {
-  std::uint32_t first = 0;
+struct PointPiece {
+  const PackedPoint* points = nullptr;
+  const std::uint32_t* ids = nullptr;  // null: point i has id first_id + i
+  std::uint32_t first_id = 0;
   std::uint32_t count = 0;
 };
 
@@ -27,9 +29,9 @@ class StreamBuffer {
   static constexpr std::uint32_t kLargestSection = 1u << 22;
   std::uint32_t section_points() const { return section_points_; }
 
-  // Copies the spans, at most section_points() in all, into the next section on all cores and gives the range that
+  // Copies the pieces, at most section_points() in all, into the next section on all cores and gives the range that
   // draws them. Waits until the GPU has finished with the frame that used the section last.
-  PointRange stream(const PointSet& points, std::span<const PointSpan> spans);
+  PointRange stream(std::span<const PointPiece> pieces);
 
  private:
   // While the GPU draws from one section the CPU fills the other.

@@ -1,0 +1,30 @@
+// A cloud and its octree in main memory: everything is there at once.
+#pragma once
+
+#include "octree/tree/octree.h"
+#include "render/frame/point_set.h"
+#include "render/store/point_supply.h"
+
+namespace stipple {
+
+class MemorySupply final : public PointSupply {
+ public:
+  // `points` in store order of the octree. Both must outlive the supply.
+  MemorySupply(const PointSet& points, const Octree& octree) : points_(points), octree_(octree) {}
+
+  std::vector<VisibleCluster> visible(const View& view) override;
+  std::size_t visible_nodes() const override { return visible_nodes_; }
+  void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) override;
+  std::vector<PointPiece> collect(std::uint32_t most) override;
+  std::uint64_t read_ahead(std::uint32_t budget) const override { return budget; }
+  std::uint64_t bytes_read() const override { return bytes_read_; }
+
+ private:
+  const PointSet& points_;
+  const Octree& octree_;
+  std::vector<PointPiece> requested_;
+  std::size_t visible_nodes_ = 0;
+  std::uint64_t bytes_read_ = 0;
+};
+
+}  // namespace stipple

@@ -1,0 +1,42 @@
+// Where the hierarchical methods get clusters and their points from: main memory, or a tree on disk.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "octree/cloud/grid.h"
+#include "render/frame/camera.h"
+#include "render/store/stream_buffer.h"
+
+namespace stipple {
+
+// A cluster that a view may see.
+struct VisibleCluster {
+  std::uint32_t handle = 0;  // what the supply knows it by; valid until the next call of visible()
+  std::uint32_t count = 0;   // points
+  double pixels = 0.0;       // estimated to be covered by all of them
+};
+
+class PointSupply {
+ public:
+  virtual ~PointSupply() = default;
+
+  // The clusters with points that `view` may see, front to back. Forgets what was requested before.
+  virtual std::vector<VisibleCluster> visible(const View& view) = 0;
+  // Nodes those clusters belong to.
+  virtual std::size_t visible_nodes() const = 0;
+
+  // Asks for points [first, first + count) of a cluster.
+  virtual void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) = 0;
+  // Requested points that have arrived, `most` at most, each given once; they stay valid until the next call of any
+  // function. While requests are under way and none has arrived, waits for a moment before it gives nothing. Throws
+  // Error when reading failed.
+  virtual std::vector<PointPiece> collect(std::uint32_t most) = 0;
+  // Points to have under way so that collect() seldom waits, for a frame of `budget` points.
+  virtual std::uint64_t read_ahead(std::uint32_t budget) const = 0;
+
+  // Bytes read from disk or main memory so far.
+  virtual std::uint64_t bytes_read() const = 0;
+};
+
+}  // namespace stipple
