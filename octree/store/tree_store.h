@@ -107,6 +107,12 @@ class TreeStore {
   virtual void read_points(const StoredNode& node, std::span<const std::size_t> attributes,
                            PointBatch& batch) const = 0;
 
+  // Whether read_part() reads less than the node.
+  virtual bool reads_parts() const = 0;
+  // As read_points(), of points [first, first + count) of the node, which has as many.
+  virtual void read_part(const StoredNode& node, std::uint64_t first, std::uint64_t count,
+                         std::span<const std::size_t> attributes, PointBatch& batch) const = 0;
+
   // Of a node with points, if info().has_details: trees that are not ours know nothing. Throws Error when the details
   // break off or do not know the node.
   virtual NodeDetails read_details(const StoredNode& node) const = 0;

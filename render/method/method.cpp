@@ -8,6 +8,7 @@
 #include "render/method/hierarchical.h"
 #include "render/method/unstructured.h"
 #include "render/store/memory_supply.h"
+#include "render/store/tree_supply.h"
 
 namespace stipple {
 namespace {
@@ -57,6 +58,13 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
       return std::make_unique<Unstructured>(points, options.seed);
   }
   return nullptr;
+}
+
+std::unique_ptr<Method> make_method(Mode mode, const Dataset& dataset, const MethodOptions& options) {
+  if (mode == Mode::hierarchical && dataset.tree)
+    return std::make_unique<Hierarchical>(std::make_unique<TreeSupply>(dataset.tree, dataset.colors),
+                                          options.largest_budget);
+  return make_method(mode, dataset.points, dataset.octree ? &*dataset.octree : nullptr, options);
 }
 
 }  // namespace stipple

@@ -8,10 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "octree/tree/octree.h"
 #include "render/frame/camera.h"
-#include "render/frame/point_set.h"
 #include "render/raster/rasterizer.h"
+#include "render/store/dataset.h"
 
 namespace stipple {
 
@@ -54,7 +53,7 @@ std::span<const Mode> all_modes();
 // "brute-force", "hierarchical", "unstructured".
 std::string_view name_of(Mode mode);
 std::optional<Mode> mode_named(std::string_view name);
-// Whether the mode draws from an octree.
+// Whether the mode draws from an octree, in memory or on disk; then it needs no points in memory if that is on disk.
 bool needs_octree(Mode mode);
 
 struct MethodOptions {
@@ -66,5 +65,7 @@ struct MethodOptions {
 // Uploads what the mode keeps on the GPU. Throws Error when memory is refused.
 std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Octree* octree,
                                     const MethodOptions& options = {});
+// The same for a dataset, whose tree may be on disk.
+std::unique_ptr<Method> make_method(Mode mode, const Dataset& dataset, const MethodOptions& options = {});
 
 }  // namespace stipple

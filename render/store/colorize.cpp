@@ -135,6 +135,16 @@ ColorMap map_colors(const Cloud& cloud, const std::string& color) {
   return map;
 }
 
+ColorMap map_colors(const TreeStore& tree, const Cloud& root, const std::string& color) {
+  ColorMap map = map_colors(root, color);
+  if (map.kind != ColorMap::Kind::rgb8 && map.kind != ColorMap::Kind::rgb16) return map;
+  const TreeInfo& info = tree.info();
+  const std::vector<double>& most = info.ranges[*find_attribute(info.source.schema, color)].max;
+  if (!most.empty() && std::ranges::all_of(most, [](double v) { return std::isfinite(v); }))
+    map.kind = std::ranges::max(most) > 255.0 ? ColorMap::Kind::rgb16 : ColorMap::Kind::rgb8;
+  return map;
+}
+
 void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, const Column* column, std::size_t first,
                  std::span<PackedPoint> out) {
   for (std::size_t i = 0; i < out.size(); ++i) out[i].position = positions[first + i];

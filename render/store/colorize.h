@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "octree/cloud/cloud.h"
+#include "octree/store/tree_store.h"
 #include "render/frame/point_set.h"
 
 namespace stipple {
@@ -37,6 +38,10 @@ struct ColorMap {
 // and height a ramp from the 1st to the 99th percentile; of attributes with several components, the first. rgb of 16
 // bits is taken as 8 bits when no channel of any point exceeds 255. Throws Error when the cloud lacks the column.
 ColorMap map_colors(const Cloud& cloud, const std::string& color);
+
+// The map for a tree on disk, stretched over its root, which is an even sample. Whether colours have 8 bits is what the
+// tree says of their largest value.
+ColorMap map_colors(const TreeStore& tree, const Cloud& root, const std::string& color);
 
 // Colours points first, first + 1, ... of `positions` and `column` (the map's attribute; null for height), as many as
 // `out` has room for.

@@ -10,6 +10,9 @@
 
 #include "octree/build/builder.h"
 #include "octree/cloud/cloud.h"
+#include "octree/open/open.h"
+#include "octree/store/open_tree.h"
+#include "octree/store/tree_source.h"
 #include "render/store/colorize.h"
 
 namespace stipple {
@@ -38,14 +41,52 @@ void to_store_order(PointSet& set, const Octree& octree) {
   set.ids = octree.order;
 }
 
+// The root's points as a cloud of their own, with what the colour needs.
+Cloud root_of(const TreeStore& tree, const std::string& color) {
+  Cloud cloud;
+  cloud.info = tree.info().source;
+  const TreeStore::HierarchyPiece piece = tree.root_piece();
+  std::vector<std::size_t> attributes;
+  if (const auto index = find_attribute(cloud.info.schema, color)) attributes.push_back(*index);
+  PointBatch batch;
+  for (const std::size_t index : attributes) batch.columns.push_back({cloud.info.schema[index], {}});
+  if (!piece.nodes.empty() && piece.nodes.front().points > 0) tree.read_points(piece.nodes.front(), attributes, batch);
+  cloud.positions = std::move(batch.positions);
+  cloud.columns = std::move(batch.columns);
+  for (const glm::ivec3& p : cloud.positions) cloud.bounds.extend(p);
+  return cloud;
+}
+
 }  // namespace
+
+Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs) {
+  if (!is_tree(path)) return load_dataset(*open_source(path), color, needs.octree);
+  const auto start = Clock::now();
+  Dataset dataset;
+  dataset.tree = open_tree(path);
+  dataset.info = dataset.tree->info().source;
+  const std::string chosen = choose_color(dataset.info.schema, color);
+  const Cloud root = root_of(*dataset.tree, chosen);
+  dataset.colors = map_colors(*dataset.tree, root, chosen);
+  dataset.root = make_point_set(root, dataset.colors);
+  if (needs.points) {
+    const TreeSource source(dataset.tree);
+    dataset.points = make_point_set(load_cloud(source, attributes_for_color(chosen)), dataset.colors);
+  } else {
+    dataset.points.grid = dataset.info.grid;
+  }
+  dataset.load_seconds = seconds_since(start);
+  return dataset;
+}
 
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree) {
   Dataset dataset;
   auto start = Clock::now();
   dataset.info = source.info();
-  dataset.color = choose_color(dataset.info.schema, color);
-  dataset.points = make_point_set(load_cloud(source, attributes_for_color(dataset.color)), dataset.color);
+  const std::string chosen = choose_color(dataset.info.schema, color);
+  const Cloud cloud = load_cloud(source, attributes_for_color(chosen));
+  dataset.colors = map_colors(cloud, chosen);
+  dataset.points = make_point_set(cloud, dataset.colors);
   dataset.load_seconds = seconds_since(start);
   if (!with_octree) return dataset;
 

@@ -2,27 +2,47 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "octree/cloud/source.h"
+#include "octree/store/tree_store.h"
 #include "octree/tree/octree.h"
 #include "render/frame/point_set.h"
+#include "render/store/colorize.h"
 
 namespace stipple {
 
-// The points every renderer of a comparison shares. Where there is an octree they stand in its store order and keep the
-// ids they have in the source, so that all methods, with a tree or without, break ties alike.
+// The points every renderer of a comparison shares. Where an octree was built they stand in its store order and keep
+// the ids they have in the source, so that all methods, with a tree or without, break ties alike. Of an octree on disk
+// the ids count points in store order.
 struct Dataset {
   SourceInfo info;
-  std::string color;  // what the points are coloured by
-  PointSet points;
+  ColorMap colors;  // what the points are coloured by
+  PointSet points;  // grid and bounds alone, where a tree on disk was not to be loaded
   std::optional<Octree> octree;
-  double load_seconds = 0.0;   // reading and colouring
-  double build_seconds = 0.0;  // building the octree and putting the points in its order
+  std::shared_ptr<const TreeStore> tree;  // the input itself, if it is an octree on disk
+  PointSet root;                          // the points of its root
+  double load_seconds = 0.0;              // reading and colouring
+  double build_seconds = 0.0;             // building the octree and putting the points in its order
+
+  // Whether `points` holds all points.
+  bool in_memory() const { return points.size() == info.point_count; }
+  // Points by which to propose cameras: the same, whatever was loaded.
+  const PointSet& overview() const { return tree ? root : points; }
 };
 
-// Reads and colours the source (see choose_color); builds the octree when asked to.
+// What is wanted of an input.
+struct DatasetNeeds {
+  bool points = true;   // all points in memory; of a file they always are
+  bool octree = false;  // an octree, in memory where the input is none itself
+};
+
+// Opens, reads and colours `path` (see choose_color).
+Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs);
+
+// Reads and colours a source that is no tree; builds the octree when asked to.
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree);
 
 // The near plane for a cloud: one cell of its grid along the finest axis. Points nearer than the grid can tell are

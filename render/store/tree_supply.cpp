@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "octree/core/error.h"
 #include "octree/select/density.h"
@@ -62,35 +63,53 @@ std::vector<VisibleCluster> TreeSupply::visible(const View& view) {
     arrivals_.clear();
     under_way_ = 0;
   }
-  struct Seen {
-    VisibleCluster cluster;
-    double distance;
-  };
-  const TreeInfo& info = store_->info();
   const Frustum frustum = frustum_of(view);
-  std::vector<Seen> seen;
+  std::vector<std::pair<double, std::uint32_t>> seen;  // distance, node
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-    const WorldBox box = generous_cell(info, nodes_[n]);
-    if (!may_see(frustum, box)) continue;
-    const auto count = static_cast<std::uint32_t>(nodes_[n].points);
-    // Nodes that can only be read whole are read once
-    const double pixels = store_->reads_parts()
-                              ? uniform_pixels(box, count, view.forward, nearest_pixel_size(view, box))
-                              : static_cast<double>(count);
-    seen.push_back({{n, count, pixels}, nearest_distance(view.eye, box)});
+    const WorldBox box = generous_cell(store_->info(), nodes_[n]);
+    if (may_see(frustum, box)) seen.emplace_back(nearest_distance(view.eye, box), n);
   }
-  std::ranges::stable_sort(seen, {}, &Seen::distance);
+  std::ranges::sort(seen);
   visible_nodes_ = seen.size();
+  parts_.clear();
   std::vector<VisibleCluster> clusters;
-  for (const Seen& each : seen) clusters.push_back(each.cluster);
+  for (const auto& [distance, node] : seen) append_clusters(node, view, frustum, clusters);
   return clusters;
+}
+
+void TreeSupply::append_clusters(std::uint32_t n, const View& view, const Frustum& frustum,
+                                 std::vector<VisibleCluster>& clusters) {
+  const TreeInfo& info = store_->info();
+  const auto append = [&](std::uint32_t first, std::uint32_t count, double pixels) {
+    clusters.push_back({static_cast<std::uint32_t>(parts_.size()), count, pixels});
+    parts_.push_back({n, first});
+  };
+  const auto count = static_cast<std::uint32_t>(nodes_[n].points);
+  if (!store_->reads_parts()) {
+    append(0, count, count);  // to be read once, in one go
+    return;
+  }
+  if (!info.has_details) {
+    const WorldBox box = generous_cell(info, nodes_[n]);
+    append(0, count, uniform_pixels(box, count, view.forward, nearest_pixel_size(view, box)));
+    return;
+  }
+  const auto [known, is_new] = details_.try_emplace(n);
+  if (is_new) known->second = store_->read_details(nodes_[n]);
+  for (const Cluster& cluster : known->second.clusters) {
+    const WorldBox box = world_box(info.source.grid, cluster.box);
+    if (!may_see(frustum, box)) continue;
+    append(cluster.first, cluster.count,
+           estimated_pixels(cluster.profile, info.cube.edge, nearest_pixel_size(view, box)));
+  }
 }
 
 void TreeSupply::request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) {
   const std::uint32_t largest = store_->reads_parts() ? kLargestRequest : count;
   const std::lock_guard lock(mutex_);
   for (std::uint32_t at = 0; at < count; at += largest) {
-    queue_.push_back({handle, first + at, std::min(largest, count - at), view_});
+    const Part& part = parts_[handle];
+    queue_.push_back({{part.node, part.first + first + at}, std::min(largest, count - at), view_});
     ++under_way_;
   }
   work_ready_.notify_all();
@@ -125,11 +144,10 @@ std::uint64_t TreeSupply::bytes_read() const {
 }
 
 TreeSupply::Arrival TreeSupply::read(const Request& request) const {
-  const StoredNode& node = nodes_[request.node];
   PointBatch batch;
-  store_->read_points(node, request.first, request.count, attributes_, batch);
+  store_->read_part(nodes_[request.part.node], request.part.first, request.count, attributes_, batch);
   Arrival arrival;
-  arrival.first_id = first_id_[request.node] + request.first;
+  arrival.first_id = first_id_[request.part.node] + request.part.first;
   arrival.points.resize(batch.positions.size());
   pack_points(colors_, batch.positions, batch.columns.empty() ? nullptr : &batch.columns.front(), 0, arrival.points);
   return arrival;
@@ -151,7 +169,7 @@ void TreeSupply::work() {
       failure = std::current_exception();
     }
     lock.lock();
-    const StoredNode& node = nodes_[request.node];
+    const StoredNode& node = nodes_[request.part.node];
     bytes_read_ += node.byte_size * request.count / node.points;
     if (request.view != view_) continue;
     --under_way_;

@@ -8,8 +8,10 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
+#include "octree/select/frustum.h"
 #include "octree/store/tree_store.h"
 #include "render/store/colorize.h"
 #include "render/store/point_supply.h"
@@ -33,9 +35,13 @@ class TreeSupply final : public PointSupply {
   std::uint64_t bytes_read() const override;
 
  private:
-  struct Request {
+  // A cluster of a node in sight; the whole node where the tree knows no clusters.
+  struct Part {
     std::uint32_t node;
-    std::uint32_t first;
+    std::uint32_t first;  // point of the node
+  };
+  struct Request {
+    Part part;
     std::uint32_t count;
     std::uint64_t view;  // which call of visible() it belongs to
   };
@@ -45,14 +51,18 @@ class TreeSupply final : public PointSupply {
     std::uint32_t given = 0;  // of them, by collect()
   };
 
+  void append_clusters(std::uint32_t node, const View& view, const Frustum& frustum,
+                       std::vector<VisibleCluster>& clusters);
   void work();
   Arrival read(const Request& request) const;
 
   std::shared_ptr<const TreeStore> store_;
   ColorMap colors_;
-  std::vector<std::size_t> attributes_;  // that the colour needs
-  std::vector<StoredNode> nodes_;        // with points, in store order
-  std::vector<std::uint32_t> first_id_;  // of each
+  std::vector<std::size_t> attributes_;                     // that the colour needs
+  std::vector<StoredNode> nodes_;                           // with points, in store order
+  std::vector<std::uint32_t> first_id_;                     // of each
+  std::unordered_map<std::uint32_t, NodeDetails> details_;  // of nodes that were in sight
+  std::vector<Part> parts_;                                 // of this view; handles are indices
   std::size_t visible_nodes_ = 0;
   std::vector<Arrival> given_;  // what the last collect() handed out
 

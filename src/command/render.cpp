@@ -8,7 +8,6 @@
 
 #include "octree/core/error.h"
 #include "octree/core/output_file.h"
-#include "octree/open/open.h"
 #include "render/frame/propose_views.h"
 #include "render/gpu/context.h"
 #include "render/measure/image.h"
@@ -50,7 +49,7 @@ struct Picture {
   Json stats;
 };
 
-Camera camera_of(const Options& options, const PointSet& points, double aspect) {
+Camera camera_of(const Options& options, const Dataset& dataset, double aspect) {
   if (!options.camera.empty()) {
     const std::vector<NamedCamera> cameras = read_cameras(options.camera);
     if (cameras.size() > 1)
@@ -58,7 +57,7 @@ Camera camera_of(const Options& options, const PointSet& points, double aspect) 
           fmt::format("--camera {}: holds {} views; a picture is taken from one", options.camera, cameras.size()));
     return cameras.front().camera;
   }
-  if (options.eye.empty()) return propose_cameras(points, aspect).front().camera;
+  if (options.eye.empty()) return propose_cameras(dataset.overview(), aspect).front().camera;
   return {.eye = parse_vector("--eye", options.eye),
           .target = parse_vector("--target", options.target),
           .up = parse_vector("--up", options.up),
@@ -85,8 +84,7 @@ Picture draw_reference(const Dataset& dataset, const View& view, double point_si
 Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, const View& view, double point_size) {
   const BudgetPolicy policy = budget_of(options.draw);
   const HeadlessContext context;
-  const auto method = make_method(mode, dataset.points, dataset.octree ? &*dataset.octree : nullptr,
-                                  {.seed = options.draw.seed, .largest_budget = largest_budget(policy)});
+  const auto method = make_method(mode, dataset, {.seed = options.draw.seed, .largest_budget = largest_budget(policy)});
   ProgressiveRenderer renderer(*method, rasterizer_of(options.draw), dataset.points.grid, point_size);
   const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
   const SelectionCounts counts = method->counts();
@@ -131,10 +129,11 @@ void run(const Options& options) {
   budget_of(options.draw);
   parse_until(options.until);
 
-  const auto source = open_source(options.input);
-  for (const std::string& warning : source->info().warnings) warn(warning);
-  const Dataset dataset = load_dataset(*source, options.draw.color, mode && needs_octree(*mode));
-  const Camera camera = camera_of(options, dataset.points, static_cast<double>(size.x) / size.y);
+  // Methods that draw from an octree leave it on disk where it is there
+  const bool tree = mode && needs_octree(*mode);
+  const Dataset dataset = open_dataset(options.input, options.draw.color, {.points = !tree, .octree = tree});
+  for (const std::string& warning : dataset.info.warnings) warn(warning);
+  const Camera camera = camera_of(options, dataset, static_cast<double>(size.x) / size.y);
   const View view = make_view(camera, size, near_plane(dataset.points.grid));
   Picture picture =
       mode ? draw_with_gl(options, *mode, dataset, view, point_size) : draw_reference(dataset, view, point_size);
@@ -162,7 +161,7 @@ void run(const Options& options) {
     return;
   }
   fmt::print("{}: {} of {} points drawn in {} frames, {:.1f} ms; {} pixels covered{}\n", options.output,
-             with_thousands(stats["points_drawn"].get<std::uint64_t>()), with_thousands(dataset.points.size()),
+             with_thousands(stats["points_drawn"].get<std::uint64_t>()), with_thousands(dataset.info.point_count),
              stats["frames"].get<std::uint64_t>(), stats["ms"].get<double>(),
              with_thousands(stats["covered_pixels"].get<std::uint64_t>()),
              stats["converged"].get<bool>() ? ", converged" : "");

@@ -43,14 +43,15 @@ Json context_provenance(const HeadlessContext& context) {
 }
 
 Json dataset_provenance(const Dataset& dataset) {
+  const PointSet& set = dataset.points;
+  const WorldBox bounds = set.size() ? world_box(set.grid, set.bounds) : dataset.info.stated_bounds;
   return {{"path", dataset.info.path},
           {"format", dataset.info.format},
-          {"points_total", dataset.points.size()},
-          {"points_hash", fmt::format("{:016x}", hash_points(dataset.points))},
-          {"color", dataset.color},
-          {"bounds",
-           dataset.points.bounds.empty() ? Json() : json_of(world_box(dataset.points.grid, dataset.points.bounds))},
-          {"grid", {{"offset", json_of(dataset.points.grid.offset)}, {"scale", json_of(dataset.points.grid.scale)}}}};
+          {"points_total", dataset.info.point_count},
+          {"points_hash", dataset.in_memory() ? Json(fmt::format("{:016x}", hash_points(set))) : Json()},
+          {"color", dataset.colors.attribute},
+          {"bounds", json_of(bounds)},
+          {"grid", {{"offset", json_of(set.grid.offset)}, {"scale", json_of(set.grid.scale)}}}};
 }
 
 Json view_provenance(const View& view) {

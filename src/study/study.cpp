@@ -8,7 +8,6 @@
 
 #include "octree/core/error.h"
 #include "octree/core/output_file.h"
-#include "octree/open/open.h"
 #include "render/measure/psnr.h"
 #include "render/method/progressive_renderer.h"
 #include "render/reference/reference.h"
@@ -61,7 +60,7 @@ class InputStudy {
   void run(std::vector<Curve>& curves, Json& summaries, Json& views) {
     const double aspect = static_cast<double>(settings_.size.x) / settings_.size.y;
     const std::vector<NamedCamera> cameras =
-        settings_.cameras.empty() ? propose_cameras(dataset_.points, aspect) : settings_.cameras;
+        settings_.cameras.empty() ? propose_cameras(dataset_.overview(), aspect) : settings_.cameras;
     for (const NamedCamera& camera : cameras) {
       const View view = make_view(camera.camera, settings_.size, near_plane(dataset_.points.grid));
       const Truth truth = truth_of(camera.name, view);
@@ -79,8 +78,7 @@ class InputStudy {
   fs::path folder(const char* kind) const { return fs::path(settings_.folder) / kind / name_; }
 
   std::unique_ptr<Method> method(Mode mode) const {
-    return make_method(mode, dataset_.points, dataset_.octree ? &*dataset_.octree : nullptr,
-                       {.seed = settings_.seed, .largest_budget = largest_budget(settings_.budget)});
+    return make_method(mode, dataset_, {.seed = settings_.seed, .largest_budget = largest_budget(settings_.budget)});
   }
 
   Truth truth_of(const std::string& view_name, const View& view) {
@@ -188,7 +186,7 @@ StudyResult run_study(const StudySettings& settings, const HeadlessContext& cont
   for (std::size_t i = 0; i < settings.inputs.size(); ++i) {
     try {
       progress(fmt::format("{}: reading{}", names[i], with_octree ? " and building the octree" : ""));
-      const Dataset dataset = load_dataset(*open_source(settings.inputs[i]), settings.color, with_octree);
+      const Dataset dataset = open_dataset(settings.inputs[i], settings.color, {.octree = with_octree});
       InputStudy(settings, names[i], dataset, progress).run(curves, summaries, views);
       Json json{{"name", names[i]}};
       json.update(dataset_provenance(dataset));

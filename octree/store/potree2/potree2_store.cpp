@@ -137,6 +137,26 @@ void Potree2Store::read_points(const StoredNode& node, std::span<const std::size
   }
 }
 
+void Potree2Store::read_part(const StoredNode& node, std::uint64_t first, std::uint64_t count,
+                             std::span<const std::size_t> attributes, PointBatch& batch) const {
+  if (reads_parts()) {
+    const std::uint64_t record = potree2::record_bytes(metadata_.schema);
+    StoredNode part = node;
+    part.points = count;
+    part.byte_offset += first * record;
+    part.byte_size = count * record;
+    read_points(part, attributes, batch);
+    return;
+  }
+  read_points(node, attributes, batch);
+  const auto keep = [first, count](auto& values, std::size_t each) {
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first * each));
+    values.resize(count * each);
+  };
+  keep(batch.positions, 1);
+  for (Column& column : batch.columns) keep(column.bytes, column.attribute.bytes());
+}
+
 NodeDetails Potree2Store::read_details(const StoredNode& node) const {
   const auto found = sidecar_->find(node.byte_offset);
   if (!found || found->points != node.points || found->level != static_cast<std::uint32_t>(node.level))

@@ -25,6 +25,9 @@ class Potree2Store : public TreeStore {
   HierarchyPiece root_piece() const override { return root_piece_; }
   HierarchyPiece read_piece(const HierarchyPiece::Continuation& where, const StoredNode& parent) const override;
   void read_points(const StoredNode& node, std::span<const std::size_t> attributes, PointBatch& batch) const override;
+  bool reads_parts() const override { return metadata_.encoding == potree2::Encoding::uncompressed; }
+  void read_part(const StoredNode& node, std::uint64_t first, std::uint64_t count,
+                 std::span<const std::size_t> attributes, PointBatch& batch) const override;
   NodeDetails read_details(const StoredNode& node) const override;
 
  private:

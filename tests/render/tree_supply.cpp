@@ -1,0 +1,89 @@
+// The hierarchical method on trees that stay on disk.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "octree/core/error.h"
+#include "render/frame/propose_views.h"
+#include "render/method/progressive_renderer.h"
+#include "tests/render/gl_test.h"
+
+namespace stipple::test {
+namespace {
+
+// The two trees of the shared data, written by PotreeConverter: with records, and packed by Brotli.
+class TreesOnDisk : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const std::filesystem::path path = std::filesystem::path(STIPPLE_SHARED_DATA) / "derived/potree2" / GetParam();
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing: real trees are not tested";
+    path_ = path;
+  }
+  std::string path_;
+};
+INSTANTIATE_TEST_SUITE_P(Potree2, TreesOnDisk, testing::Values("huacayccancha-uncompressed", "lion-brotli"),
+                         [](const auto& param) { return std::string(param.param).substr(0, 4); });
+
+View view_of_tree(const Dataset& dataset, const std::string& name) {
+  for (const NamedCamera& named : propose_cameras(dataset.overview(), 16.0 / 9.0))
+    if (named.name == name) return make_view(named.camera, {320, 180}, near_plane(dataset.points.grid));
+  return {};
+}
+
+TEST_P(TreesOnDisk, ConvergeToBruteForceWithoutBeingLoaded) {
+  const Dataset loaded = open_dataset(path_, "", {});
+  const Dataset on_disk = open_dataset(path_, "", {.points = false, .octree = true});
+  EXPECT_EQ(on_disk.points.size(), 0u);
+  const auto method = make_method(Mode::hierarchical, on_disk, {.largest_budget = 50'000});
+  for (const char* camera : {"oblique", "low", "aerial"}) {
+    const View view = view_of_tree(on_disk, camera);
+    EXPECT_TRUE(same_picture(converged_picture(*method, RasterizerKind::compute, on_disk.points.grid, view, 50'000),
+                             brute_force_picture(loaded.points, RasterizerKind::compute, view)))
+        << camera;
+  }
+}
+
+TEST_P(TreesOnDisk, ANewViewForgetsWhatTheOldOneAskedFor) {
+  const Dataset loaded = open_dataset(path_, "", {});
+  const Dataset on_disk = open_dataset(path_, "", {.points = false, .octree = true});
+  const auto method = make_method(Mode::hierarchical, on_disk, {.largest_budget = 20'000});
+  ProgressiveRenderer renderer(*method, RasterizerKind::compute, on_disk.points.grid);
+  for (int frame = 0; frame < 3; ++frame) renderer.draw(view_of_tree(on_disk, "oblique"), 20'000);
+  const View view = view_of_tree(on_disk, "low");
+  while (!renderer.draw(view, 20'000).converged) {
+  }
+  EXPECT_TRUE(same_picture(renderer.read(), brute_force_picture(loaded.points, RasterizerKind::compute, view)));
+}
+
+TEST_P(TreesOnDisk, AViewOfAPartReadsAPart) {
+  const Dataset on_disk = open_dataset(path_, "", {.points = false, .octree = true});
+  const auto method = make_method(Mode::hierarchical, on_disk, {.largest_budget = 1'000'000});
+  View view = view_of_tree(on_disk, "aerial");
+  view.cot_x *= 10.0;  // a hundredth of the picture
+  view.cot_y *= 10.0;
+  converged_picture(*method, RasterizerKind::compute, on_disk.points.grid, view, 1'000'000);
+  EXPECT_GT(method->counts().bytes_read, 0u);
+  EXPECT_LT(method->counts().bytes_read, on_disk.tree->info().point_bytes / 2);
+}
+
+TEST(TreeOnDisk, AFileThatBreaksOffIsAnErrorNotAHang) {
+  const std::filesystem::path original =
+      std::filesystem::path(STIPPLE_SHARED_DATA) / "derived/potree2/huacayccancha-uncompressed";
+  if (!std::filesystem::exists(original)) GTEST_SKIP() << original << " is missing: real trees are not tested";
+  const std::filesystem::path copy =
+      std::filesystem::temp_directory_path() / ("stipple-broken-tree-" + std::to_string(getpid()));
+  std::filesystem::copy(original, copy, std::filesystem::copy_options::recursive);
+  {
+    const Dataset on_disk = open_dataset(copy, "", {.points = false, .octree = true});
+    // After it was opened: as when a disk goes away
+    std::filesystem::resize_file(copy / "octree.bin", std::filesystem::file_size(copy / "octree.bin") / 4);
+    const auto method = make_method(Mode::hierarchical, on_disk, {.largest_budget = 50'000});
+    const View view = view_of_tree(on_disk, "oblique");
+    EXPECT_THROW(converged_picture(*method, RasterizerKind::compute, on_disk.points.grid, view, 50'000), Error);
+  }
+  std::filesystem::remove_all(copy);
+}
+
+}  // namespace
+}  // namespace stipple::test
