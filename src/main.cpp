@@ -1,6 +1,8 @@
 // The program `stipple`: one line a command.
 #include "src/cli/cli.h"
 #include "src/command/bench.h"
+#include "src/command/build.h"
+#include "src/command/check.h"
 #include "src/command/compare.h"
 #include "src/command/info.h"
 #include "src/command/render.h"
@@ -12,6 +14,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string(stipple::version()), "Print the version and exit.");
   app.footer("`stipple COMMAND --help` explains a command. Exit codes: 0 done, 1 the work failed, 2 wrong usage.");
   stipple::add_info_command(app);
+  stipple::add_check_command(app);
+  stipple::add_build_command(app);
   stipple::add_render_command(app);
   stipple::add_study_command(app);
   stipple::add_compare_command(app);

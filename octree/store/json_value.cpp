@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -95,7 +96,9 @@ Json parse_json(std::string_view text, std::string_view path) {
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    throw file_error(path, error.byte, "this is no JSON any more. The file was cut off or damaged; copy it again.");
+    // The library counts bytes from 1
+    throw file_error(path, error.byte - std::min<std::size_t>(error.byte, 1),
+                     "this is no JSON any more. The file was cut off or damaged; copy it again.");
   } catch (const Json::exception&) {
     throw file_error(path, 0,
                      "a number in this JSON is too large for any computer. The file is damaged; copy it again.");

@@ -20,9 +20,10 @@ class PiecesRead {
   explicit PiecesRead(const std::string& path) : path_(path) {}
 
   void add(const Piece::Continuation& where, const StoredNode& node) {
-    const std::uint64_t end = where.piece + where.piece_size;
+    // A piece of no bytes is for the store to refuse
+    const std::uint64_t end = where.piece + std::max<std::uint64_t>(where.piece_size, 1);
     const auto next = ends_.lower_bound(where.piece + 1);
-    if (where.piece_size == 0 || end < where.piece || (next != ends_.end() && next->second < end))
+    if (end < where.piece || (next != ends_.end() && next->second < end))
       throw file_error(path_, where.piece,
                        fmt::format("the hierarchy piece of node {} holds bytes of another piece; every node was "
                                    "expected once. The file is damaged; build or copy the tree again.",

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <system_error>
+#include <vector>
 
-#include "octree/read/open.h"
+#include "octree/open/open.h"
+#include "octree/store/open_tree.h"
 #include "src/cli/cli.h"
 #include "src/json/json.h"
 
@@ -18,6 +21,21 @@ struct Options {
   std::string input;
   bool json = false;
 };
+
+struct Level {
+  std::uint64_t nodes = 0;
+  std::uint64_t points = 0;
+};
+
+std::vector<Level> levels_of(const TreeStore& store) {
+  std::vector<Level> levels;
+  for (const StoredNode& node : read_whole_hierarchy(store)) {
+    levels.resize(std::max<std::size_t>(levels.size(), node.level + 1));
+    ++levels[node.level].nodes;
+    levels[node.level].points += node.points;
+  }
+  return levels;
+}
 
 // Empty for what is not a regular file.
 std::optional<std::uint64_t> file_bytes(const std::string& path) {
@@ -37,21 +55,37 @@ Json json_or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-void print_as_json(const SourceInfo& info) {
+Json source_json(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
   Json attributes = Json::array();
   for (const Attribute& attribute : info.schema) attributes.push_back(json_of(attribute));
-  const auto bytes = file_bytes(info.path);
-  print_json({{"path", info.path},
-              {"format", info.format},
-              {"version", info.version},
-              {"encoding", info.encoding},
-              {"points", info.point_count},
-              {"file_bytes", json_or_null(bytes)},
-              {"bytes_per_point", json_or_null(bytes_per_point(bytes, info.point_count))},
-              {"grid", {{"scale", json_of(info.grid.scale)}, {"offset", json_of(info.grid.offset)}}},
-              {"stated_bounds", json_of(info.stated_bounds)},
-              {"attributes", attributes},
-              {"warnings", info.warnings}});
+  return {{"path", info.path},
+          {"format", info.format},
+          {"version", info.version},
+          {"encoding", info.encoding},
+          {"points", info.point_count},
+          {"file_bytes", json_or_null(bytes)},
+          {"bytes_per_point", json_or_null(bytes_per_point(bytes, info.point_count))},
+          {"grid", {{"scale", json_of(info.grid.scale)}, {"offset", json_of(info.grid.offset)}}},
+          {"stated_bounds", json_of(info.stated_bounds)},
+          {"attributes", attributes},
+          {"warnings", info.warnings}};
+}
+
+Json tree_json(const TreeInfo& info, const std::vector<Level>& levels) {
+  Json json_levels = Json::array();
+  std::uint64_t nodes = 0;
+  for (const Level& level : levels) {
+    json_levels.push_back({{"nodes", level.nodes}, {"points", level.points}});
+    nodes += level.nodes;
+  }
+  return {{"nodes", nodes},
+          {"depth", levels.empty() ? Json(nullptr) : Json(levels.size() - 1)},
+          {"spacing", info.spacing},
+          {"cube", {{"min", json_of(info.cube.min)}, {"edge", info.cube.edge}}},
+          {"point_bytes", info.point_bytes},
+          {"hierarchy_bytes", info.hierarchy_bytes},
+          {"minimal_distance", json_or_null(info.minimal_distance)},
+          {"levels", json_levels}};
 }
 
 std::string text_of(const glm::dvec3& v) {
@@ -62,15 +96,14 @@ void print_line(std::string_view label, std::string_view value) {
   fmt::print("{:<15}{}\n", label, value);
 }
 
-void print_as_text(const SourceInfo& info) {
+void print_as_text(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
   print_line("path", info.path);
   print_line("format", fmt::format("{} {}", info.format, info.version));
   print_line("encoding", info.encoding);
   print_line("points", with_thousands(info.point_count));
-  const auto bytes = file_bytes(info.path);
   if (bytes) print_line("file size", fmt::format("{} bytes", with_thousands(*bytes)));
   if (const auto each = bytes_per_point(bytes, info.point_count))
-    print_line("", fmt::format("{:.2f} bytes a point, header included", *each));
+    print_line("", fmt::format("{:.2f} bytes a point, all included", *each));
   print_line("grid scale", text_of(info.grid.scale));
   print_line("grid offset", text_of(info.grid.offset));
   if (info.stated_bounds.empty()) {
@@ -88,30 +121,65 @@ void print_as_text(const SourceInfo& info) {
   if (info.schema.empty()) print_line(label, "none");
 }
 
-void run(const Options& options) {
+void print_as_text(const TreeInfo& info, const std::vector<Level>& levels) {
+  std::uint64_t nodes = 0;
+  for (const Level& level : levels) nodes += level.nodes;
+  print_line("nodes", with_thousands(nodes));
+  print_line("cube min", text_of(info.cube.min));
+  print_line("cube edge", fmt::format("{}", info.cube.edge));
+  print_line("spacing", fmt::format("{} in the root, half of it with every level", info.spacing));
+  if (info.minimal_distance)
+    print_line("", fmt::format("inner nodes promise {} of it between any two points", *info.minimal_distance));
+  if (!levels.empty()) print_line("depth", fmt::format("{}", levels.size() - 1));
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    print_line(fmt::format("level {}", i), fmt::format("{:>8} nodes {:>16} points", with_thousands(levels[i].nodes),
+                                                       with_thousands(levels[i].points)));
+}
+
+void run_on_tree(const Options& options) {
+  const auto store = open_tree(options.input);
+  const TreeInfo& info = store->info();
+  for (const std::string& warning : info.source.warnings) warn(fmt::format("{}: {}", info.source.path, warning));
+  const std::vector<Level> levels = levels_of(*store);
+  const std::uint64_t bytes = info.point_bytes + info.hierarchy_bytes;
+  if (!options.json) {
+    print_as_text(info.source, bytes);
+    print_as_text(info, levels);
+    return;
+  }
+  Json document = source_json(info.source, bytes);
+  document["octree"] = tree_json(info, levels);
+  print_json(document);
+}
+
+void run_on_file(const Options& options) {
   const auto source = open_source(options.input);
   const SourceInfo& info = source->info();
   for (const std::string& warning : info.warnings) warn(fmt::format("{}: {}", info.path, warning));
   if (options.json)
-    print_as_json(info);
+    print_json(source_json(info, file_bytes(info.path)));
   else
-    print_as_text(info);
+    print_as_text(info, file_bytes(info.path));
 }
 
 }  // namespace
 
 void add_info_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("info", "Say what a point cloud file holds, without decoding its points.");
-  command->add_option("INPUT", options->input, "Point cloud file.")->required();
+  CLI::App* command =
+      app.add_subcommand("info", "Say what a point cloud file or an octree holds, without decoding its points.");
+  command->add_option("INPUT", options->input, "Point cloud file, folder of an octree, or its metadata.json.")
+      ->required();
   add_json_flag(*command, options->json);
   command->footer(
       "Prints the format, the number of points, the integer grid that positions lie on (scale and offset in the "
       "cloud's\n"
-      "own units), the bounds that the header states, and the attributes with their types. What the file is, is found\n"
-      "out by its content, not by its name. In JSON, what the file does not say is null.\n\n"
+      "own units), the bounds that the header states, and the attributes with their types; of an octree also its "
+      "cube,\n"
+      "its spacing, and how many nodes and points each level has. What the input is, is found out by its content, not\n"
+      "by its name. In JSON, what the input does not say is null.\n\n"
       "Example:\n  stipple info autzen.las --json");
-  command->callback([options] { run(*options); });
+  command->callback([options] { is_tree(options->input) ? run_on_tree(*options) : run_on_file(*options); });
 }
 
 }  // namespace stipple

@@ -13,9 +13,10 @@ namespace stipple::potree2 {
 Sidecar::Sidecar(const std::string& path) : file_(path) {
   std::array<std::byte, kSidecarHeaderBytes> bytes;
   if (file_.size() < bytes.size())
-    throw file_error(path, file_.size(), fmt::format("the file ends here, and a header of {} bytes was expected. The "
-                                                     "tree is whole without this file: delete it.",
-                                                     bytes.size()));
+    throw file_error(path, file_.size(),
+                     fmt::format("the file ends here, and a header of {} bytes was expected. The "
+                                 "tree is whole without this file: delete it.",
+                                 bytes.size()));
   file_.read_at(0, bytes);
   if (std::memcmp(bytes.data(), kSidecarMagic.data(), kSidecarMagic.size()) != 0)
     throw file_error(path, 0, "the file does not begin with \"stipple\". The tree is whole without it: delete it.");
@@ -25,12 +26,13 @@ Sidecar::Sidecar(const std::string& path) : file_(path) {
                      fmt::format("version {}, and {} was expected. Build the tree again.", version, kSidecarVersion));
   header_ = decode_header(bytes.data());
   // Numbers beyond the file's size would overflow in the sum
-  const bool fits = header_.clusters <= file_.size() / kSidecarClusterBytes &&
-                    header_.nodes <= file_.size() / kSidecarNodeBytes;
-  if (!fits || file_.size() != kSidecarHeaderBytes + header_.clusters * kSidecarClusterBytes +
-                                   header_.nodes * kSidecarNodeBytes)
-    throw file_error(path, 0, fmt::format("{} bytes do not hold {} nodes and {} clusters. Build the tree again.",
-                                          file_.size(), header_.nodes, header_.clusters));
+  const bool fits =
+      header_.clusters <= file_.size() / kSidecarClusterBytes && header_.nodes <= file_.size() / kSidecarNodeBytes;
+  if (!fits ||
+      file_.size() != kSidecarHeaderBytes + header_.clusters * kSidecarClusterBytes + header_.nodes * kSidecarNodeBytes)
+    throw file_error(path, 0,
+                     fmt::format("{} bytes do not hold {} nodes and {} clusters. Build the tree again.", file_.size(),
+                                 header_.nodes, header_.clusters));
 }
 
 SidecarNode Sidecar::node(std::uint64_t index) const {

@@ -13,12 +13,12 @@
 //       40      8  nodes, u64: those with points
 //       48      8  clusters, u64
 //       56      8  seed, u64
-//       64         clusters of 116 bytes, those of a node together, nodes in the order of octree.bin
+//       64         clusters of 120 bytes, those of a node together, nodes in the order of octree.bin
 //                  first u32 (point of the node), count u32, box min 3 x i32, box max 3 x i32 (the tree's grid, both
 //                  corners inside), profile 22 x u32
 //                  nodes of 140 bytes, in the order of octree.bin
-//                  byte offset u64 (in octree.bin), first cluster u64, points u32, clusters u32, level u32, box 6 x i32,
-//                  profile 22 x u32
+//                  byte offset u64 (in octree.bin), first cluster u64, points u32, clusters u32, level u32, box 6 x
+//                  i32, profile 22 x u32
 //
 // A profile counts the occupied cells of edge (root edge) / 2^level for levels 0 to 21: octree/tree/octree.h.
 #pragma once

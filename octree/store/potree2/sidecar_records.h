@@ -11,7 +11,7 @@ namespace stipple::potree2 {
 
 inline constexpr std::string_view kSidecarMagic{"stipple\0", 8};
 inline constexpr std::size_t kSidecarHeaderBytes = 64;
-inline constexpr std::size_t kSidecarClusterBytes = 116;
+inline constexpr std::size_t kSidecarClusterBytes = 120;
 inline constexpr std::size_t kSidecarNodeBytes = 140;
 
 template <class T>

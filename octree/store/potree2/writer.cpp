@@ -5,10 +5,7 @@
 namespace stipple::potree2 {
 
 TreeWriter::TreeWriter(const std::string& folder, std::size_t record_bytes)
-    : folder_(folder),
-      record_bytes_(record_bytes),
-      points_(folder + "/octree.bin"),
-      sidecar_(folder) {}
+    : folder_(folder), record_bytes_(record_bytes), points_(folder + "/octree.bin"), sidecar_(folder) {}
 
 std::uint64_t TreeWriter::place(const PackedNodes& packed) {
   const std::uint64_t begin = end_;

@@ -81,9 +81,10 @@ void check_replaceable(const fs::path& target, bool replace) {
     const std::string name = entry.path().filename().string();
     if (std::ranges::find(kTreeFiles, name) == kTreeFiles.end() &&
         std::ranges::find(kExtraFiles, name) == kExtraFiles.end())
-      throw Error(fmt::format("{}: holds {}, which is no part of a Potree 2.0 tree, and is not replaced. Move it away, "
-                              "or name another folder.",
-                              target.string(), name));
+      throw Error(
+          fmt::format("{}: holds {}, which is no part of a Potree 2.0 tree, and is not replaced. Move it away, "
+                      "or name another folder.",
+                      target.string(), name));
   }
 }
 

@@ -1,0 +1,133 @@
+// `stipple build` as a user meets it: limits on memory, kills, interruptions, output.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "tests/command/run_stipple.h"
+
+namespace stipple::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BuildCommand : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return folder_.path(name); }
+  Outcome run(const std::string& arguments) const { return run_stipple(folder_, arguments); }
+
+  // The result, the last line of --json.
+  static Json result_of(const Outcome& outcome) {
+    const std::string text = outcome.out.substr(0, outcome.out.size() - 1);
+    return Json::parse(text.substr(text.rfind('\n') + 1));
+  }
+
+  // Starts a build, and sends it a signal after a while. Returns its wait status.
+  int build_and_signal(const std::string& input, const std::string& output, int signal, int milliseconds) const {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::execl(STIPPLE_PROGRAM, STIPPLE_PROGRAM, "build", input.c_str(), "-o", output.c_str(), "--memory", "128M",
+              "--force", "--json", nullptr);
+      ::_exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    ::kill(child, signal);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return status;
+  }
+
+  std::vector<std::string> leftovers() const {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path("")))
+      if (entry.path().filename().string().starts_with(".tree")) names.push_back(entry.path().filename().string());
+    return names;
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(BuildCommand, BuildsWhatCheckFindsWhole) {
+  const std::string city = city_file(folder_, 100'000);
+  const Outcome build = run("build " + city + " -o " + path("tree") + " --json");
+  ASSERT_EQ(build.code, 0) << build.err;
+  const Json result = result_of(build);
+  EXPECT_EQ(result.at("points"), 100'000);
+  EXPECT_EQ(result.at("largest_rounding"), 0.0);
+  EXPECT_EQ(run("check " + path("tree") + " --against " + city).code, 0);
+}
+
+TEST_F(BuildCommand, TakesFoldersOfFiles) {
+  fs::create_directories(path("tiles"));
+  city_file(folder_, 20'000, "tiles/a.las");
+  city_file(folder_, 30'000, "tiles/b.LAS");
+  std::ofstream(path("tiles/readme.txt")) << "no cloud";
+  const Outcome build = run("build " + path("tiles") + " -o " + path("tree") + " --json --sampling random");
+  ASSERT_EQ(build.code, 0) << build.err;
+  EXPECT_EQ(result_of(build).at("points"), 50'000);
+  fs::create_directories(path("empty"));
+  EXPECT_EQ(run("build " + path("empty") + " -o " + path("none")).code, 1);
+}
+
+TEST_F(BuildCommand, WrongUsageIsTwoAndFailedWorkOne) {
+  const std::string city = city_file(folder_, 1'000);
+  EXPECT_EQ(run("build " + city + " -o " + path("tree") + " --memory little").code, 2);
+  EXPECT_EQ(run("build " + city + " -o " + path("tree") + " --memory 1M").code, 2);
+  EXPECT_EQ(run("build " + city + " -o " + path("tree") + " --sampling best").code, 2);
+  EXPECT_EQ(run("build " + city).code, 2);
+  EXPECT_EQ(run("build " + city + " -o " + path("tree")).code, 0);
+  const Outcome again = run("build " + city + " -o " + path("tree"));
+  EXPECT_EQ(again.code, 1);
+  EXPECT_NE(again.err.find("--force"), std::string::npos) << again.err;
+  EXPECT_EQ(run("build " + city + " -o " + path("tree") + " --force").code, 0);
+}
+
+TEST_F(BuildCommand, StaysWithinItsMemory) {
+  const std::string city = city_file(folder_, 3'000'000);
+  const Outcome bounded = run("build " + city + " -o " + path("tree") + " --memory 128M --json");
+  ASSERT_EQ(bounded.code, 0) << bounded.err;
+  const Json result = result_of(bounded);
+  EXPECT_GT(result.at("bytes_spilled").get<std::uint64_t>(), 50'000'000u);
+  EXPECT_LE(result.at("peak_memory_bytes").get<std::uint64_t>(), 128u << 20);
+  ASSERT_EQ(run("build " + city + " -o " + path("free") + " --json").code, 0);
+  for (const char* name : {"hierarchy.bin", "octree.bin", "stipple.bin", "metadata.json"}) {
+    std::string bounded_bytes = text_of(path("tree/") + name), free_bytes = text_of(path("free/") + name);
+    if (std::string_view(name) == "metadata.json") continue;  // the tree's name is its folder's
+    EXPECT_TRUE(bounded_bytes == free_bytes) << name;
+  }
+}
+
+TEST_F(BuildCommand, SurvivesKillsAtRandomMoments) {
+  const std::string city = city_file(folder_, 600'000);
+  ASSERT_EQ(run("build " + city + " -o " + path("tree")).code, 0);
+  const std::string whole = text_of(path("tree/octree.bin"));
+  std::mt19937 random(std::random_device{}());
+  for (int round = 0; round < 6; ++round) {
+    build_and_signal(city, path("tree"), SIGKILL, std::uniform_int_distribution<int>(1, 400)(random));
+    EXPECT_TRUE(text_of(path("tree/octree.bin")) == whole);
+    EXPECT_EQ(run("check " + path("tree")).code, 0);
+  }
+  ASSERT_EQ(run("build " + city + " -o " + path("tree") + " --force").code, 0);
+  EXPECT_TRUE(text_of(path("tree/octree.bin")) == whole);
+  EXPECT_TRUE(leftovers().empty());
+}
+
+TEST_F(BuildCommand, AnInterruptionLeavesNothing) {
+  const std::string city = city_file(folder_, 1'000'000);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const int status = build_and_signal(city, path("tree"), signal, 150);
+    ASSERT_TRUE(WIFEXITED(status)) << "the signal came before the build began, or it was not caught";
+    EXPECT_TRUE(leftovers().empty());
+    EXPECT_EQ(WEXITSTATUS(status) == 0, fs::exists(path("tree")));
+  }
+}
+
+}  // namespace
+}  // namespace stipple::test
