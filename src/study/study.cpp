@@ -119,18 +119,19 @@ class InputStudy {
                           {"mode", curve.mode},
                           {"raster", curve.raster},
                           {"seed", settings_.seed}};
-    FrameKeeper keeper(folder("frames") / view_name / curve.mode, text_of(provenance));
+    std::optional<FrameKeeper> keeper;
+    if (repeat == 0) keeper.emplace(folder("frames") / view_name / curve.mode, text_of(provenance));
     const auto drawn = method(mode);
     ProgressiveRenderer renderer(*drawn, settings_.raster, dataset_.points.grid, settings_.point_size);
     const auto observe = [&](const FrameState& state) {
       const FrameData frame = renderer.read();
       const Image image = compose(frame, settings_.background);
       curve.points.push_back({state, mean_squared_error(image, truth.reference), frame.ids == truth.brute_force.ids});
-      if (repeat == 0) keeper.offer(state, image);
+      if (keeper) keeper->offer(state, image);
     };
     const FrameState end =
         run_view(renderer, view, settings_.budget, {.frames = {}, .milliseconds = 1e3 * settings_.seconds}, observe);
-    if (repeat == 0) keeper.keep(end, compose(renderer.read(), settings_.background));
+    if (keeper) keeper->keep(end, compose(renderer.read(), settings_.background));
     return curve;
   }
 
@@ -194,6 +195,8 @@ StudyResult run_study(const StudySettings& settings, const HeadlessContext& cont
       json["build_ms"] = 1e3 * dataset.build_seconds;
       datasets.push_back(json);
     } catch (const std::exception& e) {
+      // Of several inputs one may lack what the options name; of a single one, it is the options that are wrong
+      if (settings.inputs.size() == 1 && dynamic_cast<const UsageError*>(&e)) throw;
       const std::string what = e.what();
       result.failures.push_back(what.starts_with(settings.inputs[i]) ? what : settings.inputs[i] + ": " + what);
     }

@@ -167,6 +167,7 @@ TEST_F(RenderCommand, WrongUsageNamesTheOption) {
   expect_wrong_usage("--eye 1,2,3 --target 0,0,0 --fov 180", "field of view");
   expect_wrong_usage("--color colour", "--color colour");
   expect_wrong_usage("--budget 0", "--budget");
+  expect_wrong_usage("--budget 5M", "--budget");
   expect_wrong_usage("--fps 20 --budget 1k", "--fps");
   expect_wrong_usage("--fps 0", "--fps");
   expect_wrong_usage("--point-size -1", "--point-size");
@@ -229,7 +230,7 @@ TEST_F(RenderCommand, AnEmptyCloudAndASinglePointAreDrawn) {
 }
 
 TEST_F(RenderCommand, AFrameRateInsteadOfABudgetConvergesToo) {
-  EXPECT_EQ(picture("a.png", "--fps 30").rgb, picture("b.png", "--budget 4G").rgb);
+  EXPECT_EQ(picture("a.png", "--fps 30").rgb, picture("b.png", "--budget 4M").rgb);
 }
 
 }  // namespace

@@ -87,8 +87,7 @@ class TreeBuild {
         stats_(inputs_.schema()),
         folder_(target, options.replace),
         writer_(folder_.path(), inputs_.record_bytes()),
-        spill_(folder_.path(), monitor),
-        name_(std::filesystem::path(target).lexically_normal().filename().string()) {
+        spill_(folder_.path(), monitor) {
     setup_.options = options;
     setup_.options.chunk_points = chunk_points(options, inputs_.record_bytes());
     setup_.record_bytes = inputs_.record_bytes();
@@ -124,7 +123,7 @@ class TreeBuild {
 
   void finish() {
     potree2::Metadata metadata;
-    metadata.name = name_;
+    metadata.name = std::filesystem::path(folder_.target()).filename().string();
     metadata.points = inputs_.point_count();
     metadata.grid = setup_.frame.grid;
     metadata.spacing = spacing_of_level(setup_.frame.cube, 0);
@@ -161,7 +160,6 @@ class TreeBuild {
   potree2::WriterFolder folder_;
   potree2::TreeWriter writer_;
   SpillFile spill_;
-  std::string name_;
   BuildSetup setup_;
   Stopwatch stopwatch_;
   BuildReport report_;

@@ -17,7 +17,8 @@ class WriterFolder {
   WriterFolder(const WriterFolder&) = delete;
   WriterFolder& operator=(const WriterFolder&) = delete;
 
-  const std::string& path() const { return path_; }  // to build in
+  const std::string& path() const { return path_; }      // to build in
+  const std::string& target() const { return target_; }  // absolute
 
   // Brings the names to the disk and puts the folder in its place; an old tree leaves it in the same moment (Linux,
   // RENAME_EXCHANGE) and is then deleted. Throws Error; then the old tree is still there.
