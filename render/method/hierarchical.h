@@ -12,9 +12,10 @@
 namespace stipple {
 
 // The points stay in main memory or on disk. For each view the visible clusters are put in order, front to back; then
-// rounds: every cluster streams as many points as it is estimated to cover pixels, in the next round as many again, then
-// twice that, until nothing is left. Each frame refills a section of one vertex buffer and carries the last frame as a
-// grid of points, one a pixel. Within a cluster the points are shuffled, so that what a round reads is an even sample.
+// rounds: every cluster streams as many points as it is estimated to cover pixels, in the next round as many again,
+// then twice that, until nothing is left. Each frame refills a section of one vertex buffer and carries the last frame
+// as a grid of points, one a pixel. Within a cluster the points are shuffled, so that what a round reads is an even
+// sample.
 class Hierarchical final : public Method {
  public:
   // Budgets above `largest_budget` (or StreamBuffer::kLargestSection) are cut.

@@ -288,7 +288,8 @@ TEST(LasWriter, AFolderThatDoesNotExistIsReported) {
 TEST(LasWriter, AFolderInThePlaceOfTheFileIsReportedAndLeftAlone) {
   const ScratchFolder folder;
   std::filesystem::create_directory(folder.path("out.las"));
-  EXPECT_TRUE(contains(error_of([&] { write_las(MadeSource(5, {}), folder.path("out.las")); }), "name a file to write"));
+  EXPECT_TRUE(
+      contains(error_of([&] { write_las(MadeSource(5, {}), folder.path("out.las")); }), "name a file to write"));
   EXPECT_EQ(folder.names(), (Strings{"out.las"}));
 }
 
