@@ -1,13 +1,12 @@
 #include "octree/build/stream/region_builder.h"
 
-#include <tbb/parallel_pipeline.h>
-
 #include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>
 
 #include "octree/build/stream/distribute.h"
+#include "octree/build/stream/in_order.h"
 
 namespace stipple {
 namespace {
@@ -106,18 +105,9 @@ void RegionBuilder::build_in_memory(const Region& region, CellMap& map) {
 }
 
 void RegionBuilder::build_chunks(std::span<const Chunk> chunks) {
-  using WorkPointer = std::shared_ptr<Work>;
-  std::size_t next = 0;
-  const auto take = [&](tbb::flow_control& control) -> WorkPointer {
-    if (next == chunks.size()) {
-      control.stop();
-      return nullptr;
-    }
-    auto work = std::make_shared<Work>();
-    work->chunk = chunks[next++];
-    return work;
-  };
-  const auto grow = [&](const WorkPointer& work) {
+  const auto grow = [&](std::size_t index) {
+    auto work = std::make_unique<Work>();
+    work->chunk = chunks[index];
     const Chunk& chunk = work->chunk;
     const auto records = records_.bytes().subspan(chunk.first * setup_.record_bytes, chunk.count * setup_.record_bytes);
     BuiltChunk built = chunk_builders_.local().build({chunk.level, chunk.code}, records);
@@ -125,18 +115,9 @@ void RegionBuilder::build_chunks(std::span<const Chunk> chunks) {
     work->below = std::move(built.below);
     return work;
   };
-  const auto join = [&](const WorkPointer& work) {
-    place(*work);
-    return work;
-  };
-  const auto put = [&](const WorkPointer& work) { write(*work); };
-  constexpr auto kOrdered = tbb::filter_mode::serial_in_order;
-  constexpr auto kParallel = tbb::filter_mode::parallel;
   const std::size_t in_flight = static_cast<std::size_t>(setup_.plan.threads) * 3 / 2 + 1;
-  tbb::parallel_pipeline(in_flight, tbb::make_filter<void, WorkPointer>(kOrdered, take) &
-                                        tbb::make_filter<WorkPointer, WorkPointer>(kParallel, grow) &
-                                        tbb::make_filter<WorkPointer, WorkPointer>(kOrdered, join) &
-                                        tbb::make_filter<WorkPointer, void>(kParallel, put));
+  in_order<Work>(
+      chunks.size(), in_flight, grow, [&](Work& work) { place(work); }, [&](const Work& work) { write(work); });
 }
 
 void RegionBuilder::place(Work& work) {
