@@ -100,7 +100,7 @@ TEST_F(BuildCommand, WrongUsageIsTwoAndFailedWorkOne) {
 }
 
 TEST_F(BuildCommand, StaysWithinItsMemory) {
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the sanitizer's own memory would count as the builder's";
 #endif
   const std::string city = city_file(folder_, 3'000'000);
