@@ -26,6 +26,7 @@ struct Options {
   std::string memory = "4G";
   int threads = 0;
   std::string sampling = "poisson";
+  std::string encoding = "DEFAULT";
   bool force = false;
   bool json = false;
 };
@@ -53,6 +54,9 @@ StreamOptions stream_options(const Options& options) {
   if (options.sampling != "poisson" && options.sampling != "random")
     throw UsageError(fmt::format("--sampling: \"{}\" is neither poisson nor random", options.sampling));
   stream.sampling = options.sampling == "random" ? Sampling::random : Sampling::poisson;
+  if (options.encoding != "DEFAULT" && options.encoding != "BROTLI")
+    throw UsageError(fmt::format("--encoding: \"{}\" is neither DEFAULT nor BROTLI", options.encoding));
+  stream.encoding = options.encoding == "BROTLI" ? potree2::Encoding::brotli : potree2::Encoding::uncompressed;
   stream.replace = options.force;
   return stream;
 }
@@ -77,6 +81,7 @@ void print_as_json(const Options& options, const BuildReport& report, double sec
                       {"depth", report.depth},
                       {"spacing", report.spacing},
                       {"sampling", options.sampling},
+                      {"encoding", options.encoding},
                       {"grid", {{"scale", json_of(report.grid.scale)}, {"offset", json_of(report.grid.offset)}}},
                       {"largest_rounding", report.largest_rounding},
                       {"bytes_read", report.bytes_read},
@@ -140,6 +145,12 @@ void add_build_command(CLI::App& app) {
                    "How inner nodes choose points. poisson: no two of a node are closer than its spacing, which is the "
                    "cube's edge / 128 / 2^level. random: one of each cell of 128^3 in a node; faster, but two points "
                    "may touch.")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--encoding", options->encoding,
+          "How points are stored. DEFAULT: plain records, of which parts of a node can be read. BROTLI: packed "
+          "node by node, for the network; smaller, and slower to build and to read.")
       ->capture_default_str();
   command->add_flag("--force", options->force,
                     "Replace a tree that is already there. Other folders are never replaced.");
