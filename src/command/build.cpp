@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +14,7 @@
 #include "src/command/build_inputs.h"
 #include "src/command/build_watch.h"
 #include "src/json/json.h"
+#include "src/run/peak_memory.h"
 
 namespace stipple {
 namespace {
@@ -31,25 +30,9 @@ struct Options {
   bool json = false;
 };
 
-// "512M", "4G", "1.5G": powers of 1024, as memory is counted.
-std::uint64_t parse_bytes(std::string_view option, std::string_view text) {
-  static constexpr std::string_view kSuffixes = "kMG";
-  std::size_t power = 0;
-  if (!text.empty()) {
-    const std::size_t suffix = kSuffixes.find(text.back() == 'K' ? 'k' : text.back());
-    if (suffix != std::string_view::npos) power = suffix + 1;
-  }
-  const double number = parse_positive(option, text.substr(0, text.size() - (power > 0 ? 1 : 0)));
-  const double bytes = number * static_cast<double>(std::uint64_t{1} << 10 * power);
-  if (bytes < static_cast<double>(kLeastMemory) || bytes > 1e18)
-    throw UsageError(
-        fmt::format("{}: \"{}\" is not an amount of memory of {}M or more", option, text, kLeastMemory >> 20));
-  return static_cast<std::uint64_t>(bytes);
-}
-
 StreamOptions stream_options(const Options& options) {
   StreamOptions stream;
-  stream.memory = parse_bytes("--memory", options.memory);
+  stream.memory = parse_bytes("--memory", options.memory, kLeastMemory);
   stream.threads = options.threads;
   if (options.sampling != "poisson" && options.sampling != "random")
     throw UsageError(fmt::format("--sampling: \"{}\" is neither poisson nor random", options.sampling));
@@ -59,15 +42,6 @@ StreamOptions stream_options(const Options& options) {
   stream.encoding = options.encoding == "BROTLI" ? potree2::Encoding::brotli : potree2::Encoding::uncompressed;
   stream.replace = options.force;
   return stream;
-}
-
-// Of this program alone: getrusage() would count what the program that started it had resident, too.
-std::uint64_t peak_memory() {
-  std::ifstream status("/proc/self/status");
-  std::string line;
-  while (std::getline(status, line))
-    if (line.starts_with("VmHWM:")) return std::strtoull(line.c_str() + 6, nullptr, 10) * 1024;
-  return 0;
 }
 
 void print_as_json(const Options& options, const BuildReport& report, double seconds) {

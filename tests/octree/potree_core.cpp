@@ -58,7 +58,7 @@ TEST_P(PotreeCore, SeesEveryPointOfOurTree) {
   sources.push_back(make_scene("city", 200'000, 1));
   StreamOptions options;
   options.encoding = GetParam();
-  options.leaf_capacity = 2'000;  // deeper than a piece of the hierarchy
+  options.leaf_capacity = 500;  // deeper than a piece of the hierarchy
   BuildMonitor monitor;
   const BuildReport report = build_tree(sources, folder.path("tree"), options, monitor);
   ASSERT_GT(report.depth, 4);
