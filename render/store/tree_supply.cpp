@@ -21,11 +21,11 @@ constexpr std::uint32_t kLargestRequest = 65536;
 // How long collect() waits: a picture that stands still for a frame is better than a busy one.
 constexpr std::chrono::milliseconds kPatience{20};
 
-// The cell, half a grid cell wider: positions were rounded to the grid after their node was chosen.
+// The cell, and what points may be outside it.
 WorldBox generous_cell(const TreeInfo& info, const StoredNode& node) {
   WorldBox box = cell_of(info.cube, node);
-  box.min -= 0.5 * info.source.grid.scale;
-  box.max += 0.5 * info.source.grid.scale;
+  box.min -= info.cell_margin;
+  box.max += info.cell_margin;
   return box;
 }
 
@@ -35,7 +35,7 @@ TreeSupply::TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors)
     : store_(std::move(store)), colors_(std::move(colors)) {
   const TreeInfo& info = store_->info();
   if (const auto index = find_attribute(info.source.schema, colors_.attribute)) attributes_.push_back(*index);
-  nodes_ = in_store_order(*store_, read_whole_hierarchy(*store_));
+  nodes_ = in_store_order(*store_, locate_all(*store_, read_whole_hierarchy(*store_)));
   std::uint64_t points = 0;
   for (const StoredNode& node : nodes_) {
     first_id_.push_back(static_cast<std::uint32_t>(points));
