@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+
+#include "octree/read/input_file.h"
 
 namespace stipple {
 namespace {
@@ -90,6 +93,16 @@ Error JsonValue::error(std::string_view what) const {
 
 Error JsonValue::expected(std::string_view what) const {
   return error(fmt::format("{} was found, and {} was expected.", describe(*json_), what));
+}
+
+std::string read_json_file(const std::string& path) {
+  constexpr std::uint64_t kMost = std::uint64_t{64} << 20;
+  const InputFile file(path);
+  if (file.size() > kMost)
+    throw file_error(path, kMost, "the file goes on here, and JSON that describes an octree is never as long.");
+  std::string text(static_cast<std::size_t>(file.size()), '\0');
+  file.read_at(0, std::as_writable_bytes(std::span(text)));
+  return text;
 }
 
 Json parse_json(std::string_view text, std::string_view path) {

@@ -43,6 +43,9 @@ class JsonValue {
   std::string key_;  // "hierarchy.depth", "attributes[3].type"; empty for the document
 };
 
+// The content of a file of JSON. Throws Error when it is longer than 64 MiB: nothing that describes a tree is.
+std::string read_json_file(const std::string& path);
+
 // Parses `text`. Throws Error naming the byte where it stops being JSON.
 nlohmann::ordered_json parse_json(std::string_view text, std::string_view path);
 

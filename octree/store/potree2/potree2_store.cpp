@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "octree/core/error.h"
+#include "octree/store/json_value.h"
 #include "octree/store/potree2/node_points.h"
 
 namespace stipple {
@@ -15,8 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMetadataName = "metadata.json";
-// Histograms and a thousand attributes fit; nothing that calls itself metadata is a gigabyte.
-constexpr std::uint64_t kMaxMetadataBytes = std::uint64_t{16} << 20;
 // PotreeConverter picks the cell before it rounds the point to the grid, on which the cell's corners need not be: in
 // the lion of the Potree project, points are up to 0.75 grid steps outside.
 constexpr double kCellMargin = 1.0;
@@ -30,12 +29,7 @@ std::string file_beside(const std::string& path, std::string_view name) {
 }
 
 potree2::Metadata load_metadata(const std::string& path) {
-  const InputFile file(path);
-  if (file.size() > kMaxMetadataBytes)
-    throw file_error(path, kMaxMetadataBytes, "the file goes on here, and metadata are never as long.");
-  std::string text(static_cast<std::size_t>(file.size()), '\0');
-  file.read_at(0, std::as_writable_bytes(std::span(text)));
-  return potree2::parse_metadata(text, path);
+  return potree2::parse_metadata(read_json_file(path), path);
 }
 
 // The box that the metadata state for positions; the root's cell where they do not.
