@@ -86,6 +86,12 @@ glm::dvec3 JsonValue::vector() const {
   return {values[0].number(), values[1].number(), values[2].number()};
 }
 
+ScalarType JsonValue::scalar_type() const {
+  for (int i = 0; i <= static_cast<int>(ScalarType::f64); ++i)
+    if (name_of(static_cast<ScalarType>(i)) == text()) return static_cast<ScalarType>(i);
+  throw error(fmt::format("\"{}\" is no type that Potree has.", text()));
+}
+
 Error JsonValue::error(std::string_view what) const {
   if (key_.empty()) return Error(fmt::format("{}: {}", *path_, what));
   return Error(fmt::format("{}: {}: {}", *path_, key_, what));
