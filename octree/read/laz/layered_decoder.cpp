@@ -225,15 +225,18 @@ void LayeredDecoder::read_layers() {
 void LayeredDecoder::begin_layers() {
   const std::byte* const first = first_.data();
   returns_xy_.begin(first);
-  z_.begin();
-  classification_.begin();
-  flags_.begin();
-  intensity_.begin();
-  scan_angle_.begin();
-  user_data_.begin();
-  point_source_.begin();
-  gps_time_.begin();
   const unsigned channel = load<std::uint8_t>(first + 15) >> 4 & 3u;
+  const auto begin_value = [&]<class Values>(Values& values, const Layer& layer) {
+    if (layer.active()) values.begin(channel, load<typename Values::Value>(first + Values::kOffset));
+  };
+  begin_value(z_, layers_[kZ]);
+  begin_value(classification_, layers_[kClassification]);
+  begin_value(flags_, layers_[kFlags]);
+  begin_value(intensity_, layers_[kIntensity]);
+  begin_value(scan_angle_, layers_[kScanAngle]);
+  begin_value(user_data_, layers_[kUserData]);
+  begin_value(point_source_, layers_[kPointSource]);
+  begin_value(gps_time_, layers_[kGpsTime]);
   const bool corrected = format_.version >= 4;
   const auto begin_item = [&]<class Models>(ItemLayer<Models>& item, const Layer& layer) {
     if (layer.active()) item.begin(channel, load<typename Models::Value>(first + layer.first_byte), corrected);

@@ -29,7 +29,12 @@ struct PointContext {
 template <class State>
 class ChannelStates {
  public:
-  void forget() { ready_ = {}; }
+  // For the first point of a chunk, which has the value `first`. No other channel is known then.
+  template <class... Args>
+  void restart(unsigned channel, const Args&... first) {
+    ready_ = {};
+    prepare(channel, first...);
+  }
   bool has(unsigned channel) const { return ready_[channel]; }
   template <class... Args>
   [[gnu::always_inline]] State& at(unsigned channel, const Args&... last) {
@@ -102,9 +107,8 @@ inline void ReturnsXyLayer::State::init(const Last& from) {
 inline void ReturnsXyLayer::begin(const std::byte* first) {
   const unsigned returns = load<std::uint8_t>(first + 14);
   channel_ = load<std::uint8_t>(first + 15) >> 4 & 3u;
-  states_.forget();
-  states_.at(channel_,
-             Last{load<std::int32_t>(first), load<std::int32_t>(first + 4), returns & 15u, returns >> 4, false});
+  states_.restart(channel_,
+                  Last{load<std::int32_t>(first), load<std::int32_t>(first + 4), returns & 15u, returns >> 4, false});
 }
 
 inline unsigned ReturnsXyLayer::next_number(ArithmeticDecoder& decoder, State& state, unsigned changed) {
@@ -172,7 +176,7 @@ class ZLayer {
  public:
   using Value = std::int32_t;
   static constexpr std::size_t kOffset = 8;
-  void begin() { states_.forget(); }
+  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
   [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
     State& state = states_.at(context.channel, before);
     Value& height = state.heights[context.level];
@@ -196,7 +200,7 @@ class ClassificationLayer {
  public:
   using Value = std::uint8_t;
   static constexpr std::size_t kOffset = 16;
-  void begin() { states_.forget(); }
+  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
   [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
     State& state = states_.at(context.channel, before);
     const unsigned model = (state.last & 31u) * 2 + (context.returns == 3);
@@ -221,7 +225,7 @@ class FlagsLayer {
  public:
   using Value = std::uint8_t;
   static constexpr std::size_t kOffset = 15;
-  void begin() { states_.forget(); }
+  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
   [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
     State& state = states_.at(context.channel, before);
     state.last = decoder.symbol(state.models[state.last]);
@@ -245,7 +249,7 @@ class IntensityLayer {
  public:
   using Value = std::uint16_t;
   static constexpr std::size_t kOffset = 12;
-  void begin() { states_.forget(); }
+  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
   [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
     State& state = states_.at(context.channel, before);
     Value& last = state.last[context.returns * 2u + context.time_changed];
@@ -269,7 +273,7 @@ class ScanAngleLayer {
  public:
   using Value = std::int16_t;
   static constexpr std::size_t kOffset = 18;
-  void begin() { states_.forget(); }
+  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
   [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
     State& state = states_.at(context.channel, before);
     if (context.angle_changed)
@@ -293,7 +297,7 @@ class UserDataLayer {
  public:
   using Value = std::uint8_t;
   static constexpr std::size_t kOffset = 17;
-  void begin() { states_.forget(); }
+  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
   [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
     State& state = states_.at(context.channel, before);
     state.last = static_cast<Value>(decoder.symbol(state.models[state.last / 4u]));
@@ -316,7 +320,7 @@ class PointSourceLayer {
  public:
   using Value = std::uint16_t;
   static constexpr std::size_t kOffset = 20;
-  void begin() { states_.forget(); }
+  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
   [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
     State& state = states_.at(context.channel, before);
     if (context.source_changed) state.last = static_cast<Value>(state.source.decode(decoder, state.last));
@@ -339,7 +343,7 @@ class GpsTimeLayer {
  public:
   using Value = std::uint64_t;  // the bits of a double
   static constexpr std::size_t kOffset = 22;
-  void begin() { states_.forget(); }
+  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
   [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
     State& state = states_.at(context.channel, before);
     return context.time_changed ? state.decode(decoder) : state.last();
@@ -360,7 +364,7 @@ class ItemLayer {
 
   void begin(unsigned channel, const Value& first, bool corrected) {
     corrected_ = corrected;
-    states_.forget();
+    states_.restart(channel, first);
     channel_ = channel;
     state_ = &states_.at(channel, first);
   }

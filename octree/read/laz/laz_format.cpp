@@ -122,9 +122,8 @@ class Parser {
     const ItemType extra = header_.point_format >= 6 ? ItemType::bytes14 : ItemType::bytes;
     if (expected ? item.type == expected->type && item.size == expected->size : item.type == extra && item.size > 0)
       return;
-    const std::string wanted =
-        expected ? fmt::format("item {} of {} bytes", number_of(expected->type), expected->size)
-                 : fmt::format("extra bytes (item {})", number_of(extra));
+    const std::string wanted = expected ? fmt::format("item {} of {} bytes", number_of(expected->type), expected->size)
+                                        : fmt::format("extra bytes (item {})", number_of(extra));
     throw error(at, fmt::format("item {} of {} bytes was found, and {} was expected with point format {}.",
                                 number_of(item.type), item.size, wanted, header_.point_format));
   }
