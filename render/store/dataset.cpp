@@ -14,6 +14,7 @@
 #include "octree/store/open_tree.h"
 #include "octree/store/tree_source.h"
 #include "render/store/colorize.h"
+#include "render/store/tree_ids.h"
 
 namespace stipple {
 namespace {
@@ -75,7 +76,10 @@ Dataset open_dataset(const std::string& path, const std::string& color, const Da
   dataset.root = make_point_set(root, dataset.colors);
   if (needs.points) {
     const TreeSource source(dataset.tree);
+    dataset.info = source.info();
     dataset.points = make_point_set(load_cloud(source, attributes_for_color(chosen)), dataset.colors);
+    dataset.points.ids = ids_of(source.nodes());
+    dataset.bytes_to_load = dataset.tree->bytes_read();
   } else {
     dataset.points.grid = dataset.info.grid;
   }

@@ -52,9 +52,12 @@ TreeStore::HierarchyPiece parse_piece(std::span<const std::byte> bytes, const St
 // here with a step of 5).
 std::string place_of(const StoredNode& node, const Metadata& metadata);
 
-// One grid for all nodes of a cube. Corners of cells seldom lie on multiples of `scale`, so that it has up to 2^10
-// steps a `scale`: enough for the corners of cells of 100 and more of them, if the cube's edge is a multiple and the
-// grid holds it, and else to leave a rounding of `scale` / 2^11.
-Grid grid_of(const WorldBox& cube, double scale);
+// One grid for all nodes of a cube down to level `depth`. Corners of cells need not lie on multiples of `scale`: then
+// it has up to 2^10 steps a `scale`, as many as it takes if the cube's edge is a multiple and the grid holds it, and
+// else as leave a rounding of `scale` / 2^11.
+Grid grid_of(const WorldBox& cube, double scale, int depth);
+
+// The deepest level of the first piece of a hierarchy; where it goes on elsewhere, that of cells of 100 times `scale`.
+int depth_for_grid(const TreeStore::HierarchyPiece& first, const WorldBox& cube, double scale);
 
 }  // namespace stipple::potree1

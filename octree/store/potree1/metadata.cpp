@@ -15,6 +15,11 @@ constexpr int kLowestMinor = 4;  // before, positions were floats
 constexpr int kHighestMinor = 8;
 constexpr double kWidestCube = 1e300;
 
+double edge_of(const WorldBox& cube) {
+  const glm::dvec3 size = cube.max - cube.min;
+  return std::max({size.x, size.y, size.z});
+}
+
 int parse_version(const JsonValue& json) {
   const std::string& text = json.text();
   int minor = -1;
@@ -118,19 +123,24 @@ Metadata parse_metadata(const std::string& text, const std::string& path) {
   return metadata;
 }
 
-Grid grid_of(const WorldBox& cube, double scale) {
-  constexpr double kLeastCell = 100.0;    // steps of `scale`
+Grid grid_of(const WorldBox& cube, double scale, int depth) {
   constexpr double kMostSteps = 1 << 29;  // of the grid, along the cube's edge: points may be a little outside
   constexpr int kMostHalvings = 10;
-  const glm::dvec3 size = cube.max - cube.min;
-  const double steps = std::max({size.x, size.y, size.z}) / scale;
-  const int levels = std::max(0, static_cast<int>(std::floor(std::log2(std::max(steps, 1.0) / kLeastCell))));
-  const auto is_whole = [](double value) { return std::abs(value - std::round(value)) < 1e-6 * std::max(1.0, value); };
+  const double steps = edge_of(cube) / scale;
+  const bool whole = std::abs(steps - std::round(steps)) < 1e-6 * std::max(1.0, steps);
+  const double cells = std::ldexp(1.0, depth);
   int halvings = 0;
   while (halvings < kMostHalvings && std::ldexp(steps, halvings + 1) <= kMostSteps &&
-         !(is_whole(steps) && std::fmod(std::ldexp(std::round(steps), halvings), std::ldexp(1.0, levels)) == 0.0))
+         !(whole && std::fmod(std::ldexp(std::round(steps), halvings), cells) == 0.0))
     ++halvings;
   return {cube.min, glm::dvec3(std::ldexp(scale, -halvings))};
+}
+
+int depth_for_grid(const TreeStore::HierarchyPiece& first, const WorldBox& cube, double scale) {
+  constexpr double kLeastCell = 100.0;
+  if (!first.continued.empty())
+    return std::max(0, static_cast<int>(std::floor(std::log2(std::max(edge_of(cube) / scale, 1.0) / kLeastCell))));
+  return first.nodes.empty() ? 0 : first.nodes.back().level;
 }
 
 }  // namespace stipple::potree1

@@ -37,7 +37,6 @@ TreeInfo describe(const potree1::Metadata& metadata, const std::string& path) {
   info.source.version = fmt::format("1.{}", metadata.version_minor);
   info.source.encoding = fmt::format("records of {} bytes a point", metadata.rows.bytes);
   info.source.point_count = metadata.points.value_or(0);
-  info.source.grid = potree1::grid_of(metadata.cube, metadata.scale);
   info.source.schema = metadata.rows.schema();
   const glm::dvec3 size = metadata.cube.max - metadata.cube.min;
   info.cube = {metadata.cube.min, std::max({size.x, size.y, size.z})};
@@ -60,6 +59,7 @@ Potree1Store::Potree1Store(const std::string& path)
       info_(describe(metadata_, path)) {
   count_read(fs::file_size(metadata_path(folder_)));
   if (metadata_.step_size > 0) metadata_.hierarchy = read_hrc(StoredNode{});
+  take_grid(metadata_.scale);
   if (metadata_.encoding != Encoding::bin) take_las_schema();
   // Converters cut off what is below a step of the node's grid, and that of the tree rounds
   info_.cell_margin = glm::dvec3(metadata_.scale) + info_.source.grid.scale;
@@ -68,6 +68,11 @@ Potree1Store::Potree1Store(const std::string& path)
       info_.source.point_count += node.points;
   if (info_.source.point_count > 0)
     info_.source.stated_bounds = metadata_.tight.empty() ? metadata_.cube : metadata_.tight;
+}
+
+void Potree1Store::take_grid(double scale) {
+  const int depth = potree1::depth_for_grid(metadata_.hierarchy, metadata_.cube, scale);
+  info_.source.grid = potree1::grid_of(metadata_.cube, scale, depth);
 }
 
 // The first node with points tells for all; read_las_node() holds the others to it.
@@ -81,12 +86,10 @@ void Potree1Store::take_las_schema() {
   // Some converters give every node an offset of its own, its corner; others one to all
   const WorldBox cell = cell_of(info_.cube, first.front());
   const glm::dvec3 from_corner = glm::abs(las.grid.offset - cell.min);
-  if (glm::any(glm::greaterThan(from_corner, 0.5 * las.grid.scale))) {
+  if (glm::any(glm::greaterThan(from_corner, 0.5 * las.grid.scale)))
     info_.source.grid = las.grid;
-  } else {
-    info_.source.grid =
-        potree1::grid_of(metadata_.cube, std::min({las.grid.scale.x, las.grid.scale.y, las.grid.scale.z}));
-  }
+  else
+    take_grid(std::min({las.grid.scale.x, las.grid.scale.y, las.grid.scale.z}));
   metadata_.scale = std::max({metadata_.scale, las.grid.scale.x, las.grid.scale.y, las.grid.scale.z});
 }
 

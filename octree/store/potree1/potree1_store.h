@@ -32,6 +32,7 @@ class Potree1Store : public TreeStore {
   std::string node_path(const StoredNode& node) const;
   void decode(const StoredNode& node, std::span<const std::byte> rows, std::span<const std::size_t> attributes,
               PointBatch& batch) const;
+  void take_grid(double scale);
   void take_las_schema();
 
   std::string folder_;
