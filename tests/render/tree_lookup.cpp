@@ -102,7 +102,7 @@ TEST(TreeLookup, AViewOfOnePercentOfAPotree1TreeReadsAboutAsMuch) {
   Potree1Files files;
   files.tree = plane_tree();
   files.version = "1.8";
-  files.step_size = 3;
+  files.step_size = 4;
   expect_to_read_little(files.write(folder), from_above(kCube, 0.1, kPlace));
 }
 
