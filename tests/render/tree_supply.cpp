@@ -65,7 +65,7 @@ TEST_P(TreesOnDisk, AViewOfAPartReadsAPart) {
   converged_picture(*method, RasterizerKind::compute, on_disk.points.grid, view, 1'000'000);
   EXPECT_GT(method->counts().bytes_read, 0u);
   // The trees are small: their upper levels, which every view touches, hold half of them
-  EXPECT_LT(method->counts().bytes_read, on_disk.tree->info().point_bytes * 3 / 4);
+  EXPECT_LT(method->counts().bytes_read, on_disk.tree->info().point_bytes.value() * 3 / 4);
 }
 
 TEST(TreeOnDisk, AFileThatBreaksOffIsAnErrorNotAHang) {
