@@ -15,9 +15,6 @@ namespace stipple {
 namespace {
 
 constexpr std::uint64_t kMaxBatchPoints = 65'536;
-// A point takes some thousandth of a byte when all are alike, and commonly two to five.
-constexpr std::uint64_t kTrustedPointsPerByte = 8;
-constexpr std::uint64_t kTrustedPoints = 1'000'000;
 
 // What one thread reuses from chunk to chunk.
 struct Workspace {
@@ -63,9 +60,7 @@ LazSource::LazSource(const std::string& path)
       info_(las::source_info(header_, path, "LAZ")),
       table_(laz::read_chunk_table(file_, header_, format_, info_.warnings)) {
   info_.encoding = describe(format_, header_);
-  // Nothing that was measured comes near. Before anybody makes room for so many points, see whether they are there.
-  if (header_.point_count > kTrustedPoints && header_.point_count / kTrustedPointsPerByte > file_.size())
-    read({}, [](const PointBatch&) {});
+  if (!laz::is_plausible(header_.point_count, file_.size())) read({}, [](const PointBatch&) {});
 }
 
 void LazSource::read(std::span<const std::size_t> attributes, const BatchConsumer& consume) const {
