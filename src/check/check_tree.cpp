@@ -68,8 +68,10 @@ std::vector<LevelReport> count_levels(const TreeStore& store, const std::vector<
 
 std::optional<Defect> check_bytes(const TreeStore& store, const std::vector<StoredNode>& nodes) {
   if (store.info().node_files) return std::nullopt;  // locating the nodes held each file to what it should have
+  const std::vector<StoredNode> ordered = in_store_order(store, nodes);
+  if (!store.info().point_bytes) return std::nullopt;  // the file holds more than points
   std::uint64_t end = 0;
-  for (const StoredNode& node : in_store_order(store, nodes)) {
+  for (const StoredNode& node : ordered) {
     if (node.byte_offset != end)
       return Defect{name_of(node),
                     fmt::format("bytes {} to {} of the points before it belong to no node", end, node.byte_offset)};

@@ -51,18 +51,19 @@ Nodes nodes_of(const TreeStore& store, bool exact) {
   return nodes;
 }
 
-// Of all files of the tree, as far as that is known without asking every node's.
-std::optional<std::uint64_t> bytes_of(const TreeInfo& info, const Nodes& nodes, bool exact) {
-  if (info.point_bytes) return *info.point_bytes + info.hierarchy_bytes.value_or(0);
-  return exact ? std::optional(nodes.bytes) : std::nullopt;
-}
-
 // Empty for what is not a regular file.
 std::optional<std::uint64_t> file_bytes(const std::string& path) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
   if (error) return std::nullopt;
   return bytes;
+}
+
+// Of all files of the tree, as far as that is known without asking every node's.
+std::optional<std::uint64_t> bytes_of(const TreeInfo& info, const Nodes& nodes, bool exact) {
+  if (info.point_bytes) return *info.point_bytes + info.hierarchy_bytes.value_or(0);
+  if (!info.node_files) return file_bytes(info.source.path);
+  return exact ? std::optional(nodes.bytes) : std::nullopt;
 }
 
 std::optional<double> bytes_per_point(std::optional<std::uint64_t> bytes, std::uint64_t points) {
@@ -191,8 +192,9 @@ void add_info_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("info", "Say what a point cloud file or an octree holds, without decoding its points.");
   command
-      ->add_option("INPUT", options->input,
-                   "Point cloud file, folder of an octree, or its metadata.json, ept.json or cloud.js.")
+      ->add_option(
+          "INPUT", options->input,
+          "Point cloud file, COPC among them, folder of an octree, or its metadata.json, ept.json or cloud.js.")
       ->required();
   command->add_flag("--exact", options->exact,
                     "Of an octree, count the points that its nodes hold, from the headers and sizes of their files, "

@@ -82,6 +82,23 @@ TEST_P(TreesOnDisk, AViewOfAPartReadsAPart) {
   EXPECT_LT(on_disk.tree->bytes_read() - before, all * 3 / 4);
 }
 
+// Some of its points are outside their node's cell.
+TEST(TreeOnDisk, ACopcFileConvergesToBruteForceWithoutBeingLoaded) {
+  const std::filesystem::path path =
+      std::filesystem::path(STIPPLE_SHARED_DATA) / "potree+potree/lion_takanawa.copc.laz";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing: COPC is not tested";
+  const Dataset loaded = open_dataset(path, "", {});
+  const Dataset on_disk = open_dataset(path, "", {.points = false, .octree = true});
+  EXPECT_EQ(on_disk.points.size(), 0u);
+  const auto method = make_method(Mode::hierarchical, on_disk, {.largest_budget = 50'000});
+  for (const char* camera : {"oblique", "low", "aerial"}) {
+    const View view = view_of_tree(on_disk, camera);
+    EXPECT_TRUE(same_picture(converged_picture(*method, RasterizerKind::compute, on_disk.points.grid, view, 50'000),
+                             brute_force_picture(loaded.points, RasterizerKind::compute, view)))
+        << camera;
+  }
+}
+
 TEST(TreeOnDisk, AFileThatBreaksOffIsAnErrorNotAHang) {
   const std::filesystem::path original =
       std::filesystem::path(STIPPLE_SHARED_DATA) / "derived/potree2/huacayccancha-uncompressed";

@@ -14,7 +14,14 @@ namespace {
 // Records of a block stay in the nearest cache until they are columns.
 constexpr std::size_t kBlockPoints = 1024;
 
+constexpr std::uint64_t kTrustedPointsPerByte = 8;
+constexpr std::uint64_t kTrustedPoints = 1'000'000;
+
 }  // namespace
+
+bool is_plausible(std::uint64_t points, std::uint64_t bytes) {
+  return points <= kTrustedPoints || points / kTrustedPointsPerByte <= bytes;
+}
 
 ChunkReader::ChunkReader(const InputFile& file, const Format& format, std::vector<las::Field> fields)
     : file_(file),
@@ -45,6 +52,24 @@ void ChunkReader::read(std::size_t count, PointBatch& batch) {
       las::decode_field(fields_[c], records, record_length_,
                         std::span(batch.columns[c].bytes).subspan(first * each, block * each));
     }
+  }
+}
+
+void ChunkReader::read_chunk(const Chunk& chunk, PointBatch& batch) {
+  begin(chunk);
+  if (!is_plausible(chunk.points, chunk.bytes)) {
+    decode_through();
+    begin(chunk);
+  }
+  read(static_cast<std::size_t>(chunk.points), batch);
+  check_end();
+}
+
+void ChunkReader::decode_through() {
+  for (std::uint64_t left = chunk_.points; left > 0;) {
+    const std::uint64_t block = std::min<std::uint64_t>(kBlockPoints, left);
+    decoder_->decode(std::span(records_).first(static_cast<std::size_t>(block) * record_length_));
+    left -= block;
   }
 }
 

@@ -10,6 +10,10 @@
 
 namespace stipple::laz {
 
+// Whether so many points may be made room for before they are decoded. Nothing that was measured comes near the limit:
+// points take two to five bytes commonly, and some thousandth of one when all are alike.
+bool is_plausible(std::uint64_t points, std::uint64_t bytes);
+
 // For one thread. Keeps the memory of its models from chunk to chunk.
 class ChunkReader {
  public:
@@ -21,12 +25,17 @@ class ChunkReader {
   // Replaces the positions of `batch` by the next `count` of the chunk, no more in all than it has, and its columns by
   // those of `fields`. Throws Error naming chunk, point and byte when the data break off or contradict themselves.
   void read(std::size_t count, PointBatch& batch);
+  // All points of a chunk, up to check_end(). A chunk that states more points than is plausible for its size is decoded
+  // once before room is made for them.
+  void read_chunk(const Chunk& chunk, PointBatch& batch);
   // Behind the last point of a chunk: the byte of the file where it ended. See check_end().
   std::uint64_t end() { return decoder_->end(); }
   // Behind the last point of a chunk. Throws Error when it did not end where the chunk does.
   void check_end();
 
  private:
+  void decode_through();
+
   const InputFile& file_;
   std::size_t record_length_;
   std::vector<las::Field> fields_;

@@ -28,20 +28,21 @@ enum PointLayer : std::size_t {
 // Behind a layer in memory: a point takes no more of it than this.
 constexpr std::size_t kPadding = 128;
 
-// One stream of a chunk.
+// Where the values of one stream go.
 struct Layer {
   std::string name;            // for messages
   std::size_t first_byte = 0;  // of a record, that the layer fills
   std::size_t bytes = 0;
+};
+
+// The stream of a layer in the current chunk.
+struct Stream {
   bool wanted = false;
-
-  // Of the current chunk
+  bool active = false;  // wanted and not empty; the points of an empty one have the value of the first
+  ArithmeticDecoder decoder;
+  const std::byte* end = nullptr;
   std::uint64_t file_offset = 0;
-  std::uint32_t size = 0;  // bytes; 0: all points have the value of the first
-  std::size_t begin = 0;   // in the buffer
-  ArithmeticDecoder decoder{};
-
-  bool active() const { return wanted && size > 0; }
+  std::uint32_t size = 0;  // bytes
 };
 
 std::vector<Layer> layers_of(const Format& format) {
@@ -65,20 +66,7 @@ std::vector<Layer> layers_of(const Format& format) {
 
 class LayeredDecoder final : public PointDecoder {
  public:
-  LayeredDecoder(const InputFile& file, const Format& format, std::span<const las::Field> fields)
-      : file_(file), format_(format), layers_(layers_of(format)), first_(format.record_length) {
-    layers_[kReturnsXy].wanted = layers_[kZ].wanted = true;
-    for (const las::Field& field : fields)
-      for (Layer& layer : layers_)
-        layer.wanted |=
-            field.offset < layer.first_byte + layer.bytes && layer.first_byte < field.offset + field.attribute.bytes();
-    for (std::size_t i = kPointLayers; i < layers_.size(); ++i)
-      if (format.find(ItemType::bytes14) && layers_[i].first_byte >= format.find(ItemType::bytes14)->offset) {
-        extra_ = i;
-        break;
-      }
-    if (extra_ != 0) bytes_.resize(layers_.size() - extra_);
-  }
+  LayeredDecoder(const InputFile& file, const Format& format, std::span<const las::Field> fields);
 
   void begin(const Chunk& chunk) override;
   void decode(std::span<std::byte> records) override;
@@ -88,94 +76,96 @@ class LayeredDecoder final : public PointDecoder {
   void read_sizes();
   void read_layers();
   void begin_layers();
-  void decode_block(std::byte* out, std::size_t count);
+  void decode_points(std::byte* out, std::size_t count);
+  bool decode_items(const PointContext& context, std::byte* out);
 
-  // Calls decode(ArithmeticDecoder&, i) for each of `count` points.
-  template <class Decode>
-  void run(Layer& layer, std::size_t count, Decode&& decode) {
-    ArithmeticDecoder decoder = layer.decoder;
-    const std::byte* const end = buffer_.data() + layer.begin + layer.size;
-    for (std::size_t i = 0; i < count; ++i) {
-      decode(decoder, i);
-      if (decoder.at > end || decoder.broken != 0) [[unlikely]]
-        fail(layer, decoder, done_ + i);
-    }
-    layer.decoder = decoder;
+  // The next value of a layer of POINT14. `before`: the record of the point before. Returns whether that failed.
+  template <class Values>
+  [[gnu::always_inline]] bool decode_value(PointLayer layer, Values& values, const PointContext& context,
+                                           const std::byte* before, std::byte* out) {
+    Stream& stream = streams_[layer];
+    if (!stream.active) return false;
+    const auto last = load<typename Values::Value>(before + Values::kOffset);
+    store(out + Values::kOffset, values.decode(stream.decoder, context, last));
+    return failed(stream);
   }
 
-  // A layer of one value of POINT14.
-  template <class Decoder>
-  void run_value(Layer& layer, Decoder& values, std::byte* out, std::size_t count) {
-    if (!layer.active()) return;
-    using Value = typename Decoder::Value;
-    out += Decoder::kOffset;
-    // Of the point before: the record before, or the end of the block before
-    Value before = load<Value>(last_.data() + Decoder::kOffset);
-    run(layer, count, [&](ArithmeticDecoder& decoder, std::size_t i) {
-      before = values.decode(decoder, contexts_[i], before);
-      store(out + i * format_.record_length, before);
-    });
-  }
-
-  // A layer of another item.
+  // The next value of a layer of another item.
   template <class Models>
-  void run_item(Layer& layer, ItemLayer<Models>& values, std::byte* out, std::size_t count) {
-    if (!layer.active()) return;
-    out += layer.first_byte;
-    run(layer, count, [&](ArithmeticDecoder& decoder, std::size_t i) {
-      store(out + i * format_.record_length, values.decode(decoder, contexts_[i]));
-    });
+  [[gnu::always_inline]] bool decode_item(std::size_t layer, ItemLayer<Models>& values, const PointContext& context,
+                                          std::byte* out) {
+    Stream& stream = streams_[layer];
+    if (!stream.active) return false;
+    store(out + layers_[layer].first_byte, values.decode(stream.decoder, context));
+    return failed(stream);
   }
 
-  [[noreturn, gnu::noinline]] void fail(const Layer& layer, const ArithmeticDecoder& decoder,
-                                        std::uint64_t point) const;
+  static bool failed(const Stream& stream) { return (stream.decoder.at > stream.end) | (stream.decoder.broken != 0); }
+  [[noreturn, gnu::noinline]] void report_failure(std::uint64_t point) const;
 
-  Layer* find(std::string_view name) {
-    const auto found = std::ranges::find(layers_, name, &Layer::name);
-    return found == layers_.end() ? nullptr : &*found;
+  // The layer of that name; the number of layers, which is no layer, when there is none.
+  std::size_t find(std::string_view name) const {
+    return static_cast<std::size_t>(std::ranges::find(layers_, name, &Layer::name) - layers_.begin());
   }
-
-  // Points of a block: their records and contexts stay in the nearest cache from layer to layer.
-  static constexpr std::size_t kBlock = 1024;
 
   const InputFile& file_;
   const Format format_;
-  std::vector<Layer> layers_;
-  std::size_t extra_ = 0;  // the first layer of extra bytes; 0: none
+  const std::vector<Layer> layers_;
+  const std::size_t rgb_;
+  const std::size_t nir_;
+  const std::size_t wave_;
+  std::size_t extra_;  // the first layer of extra bytes
+
   Chunk chunk_;
   std::uint64_t chunk_end_ = 0;
-  std::uint64_t done_ = 0;
-  Buffer<std::byte> head_;    // sizes of the layers
-  Buffer<std::byte> buffer_;  // the layers that are wanted
-  Buffer<std::byte> first_;   // the first record
-  Buffer<std::byte> last_;    // the last record decoded
-  std::array<PointContext, kBlock> contexts_;
+  std::uint64_t done_ = 0;       // points of the chunk
+  std::vector<Stream> streams_;  // one a layer
+  bool has_items_ = false;       // active streams beside those of POINT14
+  Buffer<std::byte> head_;       // first record and sizes of the layers
+  Buffer<std::byte> buffer_;     // the streams that are wanted
+  std::vector<std::byte> last_;  // the last record of what was decoded before
 
-  ReturnsXyLayer returns_xy_;
-  ZLayer z_;
-  ClassificationLayer classification_;
-  FlagsLayer flags_;
-  IntensityLayer intensity_;
-  ScanAngleLayer scan_angle_;
-  UserDataLayer user_data_;
-  PointSourceLayer point_source_;
-  GpsTimeLayer gps_time_;
-  ItemLayer<RgbModels> rgb_;
-  ItemLayer<NirModels> nir_;
-  ItemLayer<WaveModels> wave_;
-  std::vector<ItemLayer<ByteModels>> bytes_;
+  ReturnsXyLayer returns_xy_layer_;
+  ZLayer z_layer_;
+  ClassificationLayer classification_layer_;
+  FlagsLayer flags_layer_;
+  IntensityLayer intensity_layer_;
+  ScanAngleLayer scan_angle_layer_;
+  UserDataLayer user_data_layer_;
+  PointSourceLayer point_source_layer_;
+  GpsTimeLayer gps_time_layer_;
+  ItemLayer<RgbModels> rgb_layer_;
+  ItemLayer<NirModels> nir_layer_;
+  ItemLayer<WaveModels> wave_layer_;
+  std::vector<ItemLayer<ByteModels>> byte_layers_;
 };
+
+LayeredDecoder::LayeredDecoder(const InputFile& file, const Format& format, std::span<const las::Field> fields)
+    : file_(file),
+      format_(format),
+      layers_(layers_of(format)),
+      rgb_(find("rgb")),
+      nir_(find("nir")),
+      wave_(find("waveform packet")),
+      extra_(find("extra byte 0")),
+      streams_(layers_.size() + 1),
+      head_(format.record_length + sizeof(std::uint32_t) * (1 + layers_.size())),
+      last_(format.record_length),
+      byte_layers_(layers_.size() - extra_) {
+  streams_[kReturnsXy].wanted = streams_[kZ].wanted = true;
+  for (const las::Field& field : fields)
+    for (std::size_t i = 0; i < layers_.size(); ++i)
+      streams_[i].wanted |= field.offset < layers_[i].first_byte + layers_[i].bytes &&
+                            layers_[i].first_byte < field.offset + field.attribute.bytes();
+}
 
 void LayeredDecoder::begin(const Chunk& chunk) {
   chunk_ = chunk;
   done_ = 0;
-  head_.resize(format_.record_length + sizeof(std::uint32_t) * (1 + layers_.size()));
   if (chunk.bytes < head_.size())
     throw chunk_error(file_.path(), chunk.begin, chunk,
                       fmt::format("has {} bytes, and {} or more were expected.", chunk.bytes, head_.size()));
   file_.read_at(chunk.begin, head_);
-  std::memcpy(first_.data(), head_.data(), first_.size());
-  last_ = first_;
   read_sizes();
   read_layers();
   begin_layers();
@@ -188,115 +178,133 @@ void LayeredDecoder::read_sizes() {
     throw chunk_error(file_.path(), chunk_.begin + format_.record_length, chunk_,
                       fmt::format("states {} points itself.", points));
   std::uint64_t offset = chunk_.begin + head_.size();
-  for (Layer& layer : layers_) {
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
     at += sizeof(std::uint32_t);
-    layer.size = load<std::uint32_t>(at);
-    layer.file_offset = offset;
-    offset += layer.size;
+    Stream& stream = streams_[i];
+    stream.size = load<std::uint32_t>(at);
+    stream.file_offset = offset;
+    stream.active = stream.wanted && stream.size > 0;
+    offset += stream.size;
     if (offset - chunk_.begin > chunk_.bytes)
-      throw chunk_error(file_.path(), layer.file_offset, chunk_,
+      throw chunk_error(file_.path(), stream.file_offset, chunk_,
                         fmt::format("has {} bytes, and its layer \"{}\" of {} bytes reaches beyond them.", chunk_.bytes,
-                                    layer.name, layer.size));
-    if (layer.size > 0 && layer.size < ArithmeticDecoder::kStartBytes)
-      throw chunk_error(file_.path(), layer.file_offset, chunk_,
-                        fmt::format("has a layer \"{}\" of {} bytes; none, or {} and more, were expected.", layer.name,
-                                    layer.size, ArithmeticDecoder::kStartBytes));
+                                    layers_[i].name, stream.size));
+    if (stream.size > 0 && stream.size < ArithmeticDecoder::kStartBytes)
+      throw chunk_error(file_.path(), stream.file_offset, chunk_,
+                        fmt::format("has a layer \"{}\" of {} bytes; none, or {} and more, were expected.",
+                                    layers_[i].name, stream.size, ArithmeticDecoder::kStartBytes));
   }
   chunk_end_ = offset;
+  if (chunk_.points > 1 && streams_[kReturnsXy].size == 0)
+    throw chunk_error(file_.path(), streams_[kReturnsXy].file_offset, chunk_,
+                      fmt::format("has no layer \"{}\".", layers_[kReturnsXy].name));
 }
 
 void LayeredDecoder::read_layers() {
   std::size_t room = 0;
-  for (Layer& layer : layers_)
-    if (layer.active()) {
-      layer.begin = room;
-      room += layer.size + kPadding;
-    }
+  for (const Stream& stream : streams_)
+    if (stream.active) room += stream.size + kPadding;
   buffer_.resize(room);
-  for (Layer& layer : layers_) {
-    if (!layer.active()) continue;
-    const std::span<std::byte> bytes = std::span(buffer_).subspan(layer.begin, layer.size + kPadding);
-    file_.read_at(layer.file_offset, bytes.first(layer.size));
-    std::ranges::fill(bytes.subspan(layer.size), std::byte{0});
-    layer.decoder.start(bytes.data());
+  std::byte* at = buffer_.data();
+  for (Stream& stream : streams_) {
+    if (!stream.active) continue;
+    file_.read_at(stream.file_offset, {at, stream.size});
+    stream.end = at + stream.size;
+    std::memset(at + stream.size, 0, kPadding);
+    stream.decoder.start(at);
+    at += stream.size + kPadding;
   }
 }
 
 void LayeredDecoder::begin_layers() {
-  const std::byte* const first = first_.data();
-  returns_xy_.begin(first);
+  const std::byte* const first = head_.data();
   const unsigned channel = load<std::uint8_t>(first + 15) >> 4 & 3u;
-  const auto begin_value = [&]<class Values>(Values& values, const Layer& layer) {
-    if (layer.active()) values.begin(channel, load<typename Values::Value>(first + Values::kOffset));
+  const auto begin_value = [&]<class Values>(Values& values, PointLayer layer) {
+    if (streams_[layer].active) values.begin(channel, load<typename Values::Value>(first + Values::kOffset));
   };
-  begin_value(z_, layers_[kZ]);
-  begin_value(classification_, layers_[kClassification]);
-  begin_value(flags_, layers_[kFlags]);
-  begin_value(intensity_, layers_[kIntensity]);
-  begin_value(scan_angle_, layers_[kScanAngle]);
-  begin_value(user_data_, layers_[kUserData]);
-  begin_value(point_source_, layers_[kPointSource]);
-  begin_value(gps_time_, layers_[kGpsTime]);
+  returns_xy_layer_.begin(first);
+  begin_value(z_layer_, kZ);
+  begin_value(classification_layer_, kClassification);
+  begin_value(flags_layer_, kFlags);
+  begin_value(intensity_layer_, kIntensity);
+  begin_value(scan_angle_layer_, kScanAngle);
+  begin_value(user_data_layer_, kUserData);
+  begin_value(point_source_layer_, kPointSource);
+  begin_value(gps_time_layer_, kGpsTime);
+  has_items_ = false;
   const bool corrected = format_.version >= 4;
-  const auto begin_item = [&]<class Models>(ItemLayer<Models>& item, const Layer& layer) {
-    if (layer.active()) item.begin(channel, load<typename Models::Value>(first + layer.first_byte), corrected);
+  const auto begin_item = [&]<class Models>(ItemLayer<Models>& item, std::size_t layer) {
+    if (!streams_[layer].active) return;
+    has_items_ = true;
+    item.begin(channel, load<typename Models::Value>(first + layers_[layer].first_byte), corrected);
   };
-  if (const Layer* layer = find("rgb")) begin_item(rgb_, *layer);
-  if (const Layer* layer = find("nir")) begin_item(nir_, *layer);
-  if (const Layer* layer = find("waveform packet")) begin_item(wave_, *layer);
-  for (std::size_t i = 0; i < bytes_.size(); ++i) begin_item(bytes_[i], layers_[extra_ + i]);
+  begin_item(rgb_layer_, rgb_);
+  begin_item(nir_layer_, nir_);
+  begin_item(wave_layer_, wave_);
+  for (std::size_t i = 0; i < byte_layers_.size(); ++i) begin_item(byte_layers_[i], extra_ + i);
 }
 
 void LayeredDecoder::decode(std::span<std::byte> records) {
-  std::size_t count = records.size() / format_.record_length;
+  const std::size_t length = format_.record_length;
+  std::size_t count = records.size() / length;
+  if (count == 0) return;
   std::byte* out = records.data();
-  if (done_ == 0 && count > 0) {
-    std::memcpy(out, first_.data(), first_.size());
-    out += format_.record_length;
+  if (done_ == 0) {
+    std::memcpy(out, head_.data(), length);
+    std::memcpy(last_.data(), out, length);
+    out += length;
     --count;
     done_ = 1;
   }
-  while (count > 0) {
-    const std::size_t block = std::min(count, kBlock);
-    decode_block(out, block);
-    out += block * format_.record_length;
-    count -= block;
-  }
+  decode_points(out, count);
+  std::memcpy(last_.data(), records.data() + records.size() - length, length);
 }
 
-void LayeredDecoder::decode_block(std::byte* out, std::size_t count) {
-  // What is in no layer is as in the first point
-  for (std::size_t i = 0; i < count; ++i) std::memcpy(out + i * format_.record_length, first_.data(), first_.size());
-  Layer& returns_xy = layers_[kReturnsXy];
-  if (returns_xy.size == 0)
-    throw chunk_error(file_.path(), returns_xy.file_offset, chunk_, "has no layer \"x, y and returns\".");
-  run(returns_xy, count, [&](ArithmeticDecoder& decoder, std::size_t i) {
-    contexts_[i] = returns_xy_.decode(decoder, out + i * format_.record_length);
-  });
-  run_value(layers_[kZ], z_, out, count);
-  run_value(layers_[kClassification], classification_, out, count);
-  run_value(layers_[kFlags], flags_, out, count);
-  run_value(layers_[kIntensity], intensity_, out, count);
-  run_value(layers_[kScanAngle], scan_angle_, out, count);
-  run_value(layers_[kUserData], user_data_, out, count);
-  run_value(layers_[kPointSource], point_source_, out, count);
-  run_value(layers_[kGpsTime], gps_time_, out, count);
-  if (Layer* layer = find("rgb")) run_item(*layer, rgb_, out, count);
-  if (Layer* layer = find("nir")) run_item(*layer, nir_, out, count);
-  if (Layer* layer = find("waveform packet")) run_item(*layer, wave_, out, count);
-  for (std::size_t i = 0; i < bytes_.size(); ++i) run_item(layers_[extra_ + i], bytes_[i], out, count);
-  std::memcpy(last_.data(), out + (count - 1) * format_.record_length, format_.record_length);
+// All layers of a point before the next point: streams do not wait for one another, so that a processor works on
+// several at once. Layer after layer took half as long again.
+void LayeredDecoder::decode_points(std::byte* out, std::size_t count) {
+  const std::size_t length = format_.record_length;
+  const std::byte* const first = head_.data();
+  const std::byte* before = last_.data();
+  for (std::size_t i = 0; i < count; ++i, before = out, out += length) {
+    // What is in no layer is as in the first point
+    std::memcpy(out, first, length);
+    const PointContext context = returns_xy_layer_.decode(streams_[kReturnsXy].decoder, out);
+    bool failure = failed(streams_[kReturnsXy]);
+    failure |= decode_value(kZ, z_layer_, context, before, out);
+    failure |= decode_value(kClassification, classification_layer_, context, before, out);
+    failure |= decode_value(kFlags, flags_layer_, context, before, out);
+    failure |= decode_value(kIntensity, intensity_layer_, context, before, out);
+    failure |= decode_value(kScanAngle, scan_angle_layer_, context, before, out);
+    failure |= decode_value(kUserData, user_data_layer_, context, before, out);
+    failure |= decode_value(kPointSource, point_source_layer_, context, before, out);
+    failure |= decode_value(kGpsTime, gps_time_layer_, context, before, out);
+    if (has_items_) failure |= decode_items(context, out);
+    if (failure) [[unlikely]]
+      report_failure(done_ + i);
+  }
   done_ += count;
 }
 
-void LayeredDecoder::fail(const Layer& layer, const ArithmeticDecoder& decoder, std::uint64_t point) const {
-  const auto used = static_cast<std::uint64_t>(decoder.at - (buffer_.data() + layer.begin));
-  const std::uint64_t place = layer.file_offset + std::min<std::uint64_t>(used, layer.size);
-  if (decoder.broken != 0)
-    throw chunk_error(file_.path(), place, chunk_,
-                      fmt::format("is damaged: what layer \"{}\" holds for point {} is nothing that an encoder writes.",
-                                  layer.name, point));
-  throw chunk_error(file_.path(), place, chunk_, fmt::format("ends its layer \"{}\" in point {}.", layer.name, point));
+[[gnu::always_inline]] inline bool LayeredDecoder::decode_items(const PointContext& context, std::byte* out) {
+  bool failure = decode_item(rgb_, rgb_layer_, context, out);
+  failure |= decode_item(nir_, nir_layer_, context, out);
+  failure |= decode_item(wave_, wave_layer_, context, out);
+  for (std::size_t i = 0; i < byte_layers_.size(); ++i)
+    failure |= decode_item(extra_ + i, byte_layers_[i], context, out);
+  return failure;
+}
+
+void LayeredDecoder::report_failure(std::uint64_t point) const {
+  const auto found = std::ranges::find_if(streams_, [](const Stream& s) { return s.active && failed(s); });
+  const std::string& name = layers_[static_cast<std::size_t>(found - streams_.begin())].name;
+  const bool ended = found->decoder.at > found->end;
+  const std::uint64_t left = ended ? 0 : static_cast<std::uint64_t>(found->end - found->decoder.at);
+  const std::string what =
+      ended ? fmt::format("ends its layer \"{}\" in point {}.", name, point)
+            : fmt::format("is damaged: what layer \"{}\" holds for point {} is nothing that an encoder writes.", name,
+                          point);
+  throw chunk_error(file_.path(), found->file_offset + found->size - left, chunk_, what);
 }
 
 }  // namespace

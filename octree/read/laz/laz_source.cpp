@@ -60,6 +60,7 @@ LazSource::LazSource(const std::string& path)
       info_(las::source_info(header_, path, "LAZ")),
       table_(laz::read_chunk_table(file_, header_, format_, info_.warnings)) {
   info_.encoding = describe(format_, header_);
+  if (!laz::is_plausible(header_.point_count, file_.size())) read({}, [](const PointBatch&) {});
 }
 
 void LazSource::read(std::span<const std::size_t> attributes, const BatchConsumer& consume) const {

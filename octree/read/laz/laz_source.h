@@ -19,7 +19,8 @@ namespace stipple {
 class LazSource : public PointSource {
  public:
   // Reads the header and the table of chunks. Throws Error as las::parse_header(), laz::read_format() and
-  // laz::read_chunk_table() do, when the file cannot be opened, and when it is not compressed.
+  // laz::read_chunk_table() do, when the file cannot be opened, and when it is not compressed. A file that states more
+  // points than is plausible for its size is decoded once.
   explicit LazSource(const std::string& path);
 
   const SourceInfo& info() const override { return info_; }
