@@ -10,11 +10,12 @@
 #include "octree/core/error.h"
 #include "octree/read/input_file.h"
 #include "octree/read/las/las_source.h"
+#include "octree/read/laz/laz_source.h"
 
 namespace stipple {
 namespace {
 
-constexpr std::string_view kWhatIsRead = "uncompressed LAS 1.0-1.5, point formats 0-10";
+constexpr std::string_view kWhatIsRead = "LAS and LAZ 1.0-1.5, point formats 0-10";
 
 // "4c 41 53 46 (LASF)"; what is no printable ASCII shows as a dot.
 std::string describe(std::span<const std::byte> bytes) {
@@ -25,6 +26,14 @@ std::string describe(std::span<const std::byte> bytes) {
     text += value >= 0x20 && value < 0x7F ? static_cast<char>(value) : '.';
   }
   return fmt::format("{} ({})", hex, text);
+}
+
+// Whether a file that begins as LAS does is LAZ; whatever its name says. What is cut off before the point format is
+// not.
+bool is_compressed(const InputFile& file) {
+  std::array<std::byte, 1> format{};
+  if (file.size() > las::kPointFormat) file.read_at(las::kPointFormat, format);
+  return (std::to_integer<int>(format[0]) & las::kCompressed) != 0;
 }
 
 }  // namespace
@@ -39,8 +48,10 @@ std::unique_ptr<PointSource> open_file(const std::string& path) {
   const std::span<std::byte> seen = std::span(start).first(count);
   file.read_at(0, seen);
 
-  if (std::string_view(reinterpret_cast<const char*>(seen.data()), seen.size()).starts_with("LASF"))
+  if (std::string_view(reinterpret_cast<const char*>(seen.data()), seen.size()).starts_with("LASF")) {
+    if (is_compressed(file)) return std::make_unique<LazSource>(path);
     return std::make_unique<LasSource>(path);
+  }
   throw file_error(path, 0,
                    fmt::format("the file begins with {}, which is no point cloud that is read: {}. Convert it, "
                                "or check the path.",

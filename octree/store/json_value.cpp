@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+
+#include "octree/read/input_file.h"
 
 namespace stipple {
 namespace {
@@ -83,6 +86,12 @@ glm::dvec3 JsonValue::vector() const {
   return {values[0].number(), values[1].number(), values[2].number()};
 }
 
+ScalarType JsonValue::scalar_type() const {
+  for (int i = 0; i <= static_cast<int>(ScalarType::f64); ++i)
+    if (name_of(static_cast<ScalarType>(i)) == text()) return static_cast<ScalarType>(i);
+  throw error(fmt::format("\"{}\" is no type that Potree has.", text()));
+}
+
 Error JsonValue::error(std::string_view what) const {
   if (key_.empty()) return Error(fmt::format("{}: {}", *path_, what));
   return Error(fmt::format("{}: {}: {}", *path_, key_, what));
@@ -90,6 +99,16 @@ Error JsonValue::error(std::string_view what) const {
 
 Error JsonValue::expected(std::string_view what) const {
   return error(fmt::format("{} was found, and {} was expected.", describe(*json_), what));
+}
+
+std::string read_json_file(const std::string& path) {
+  constexpr std::uint64_t kMost = std::uint64_t{64} << 20;
+  const InputFile file(path);
+  if (file.size() > kMost)
+    throw file_error(path, kMost, "the file goes on here, and JSON that describes an octree is never as long.");
+  std::string text(static_cast<std::size_t>(file.size()), '\0');
+  file.read_at(0, std::as_writable_bytes(std::span(text)));
+  return text;
 }
 
 Json parse_json(std::string_view text, std::string_view path) {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "octree/cloud/attribute.h"
 #include "octree/core/error.h"
 
 namespace stipple {
@@ -24,11 +25,14 @@ class JsonValue {
   std::optional<JsonValue> find(std::string_view key) const;  // may be missing
   std::vector<JsonValue> elements() const;                    // of an array
   std::vector<JsonValue> elements(std::size_t count) const;   // of an array that has to have as many
-  const std::string& text() const;                            // UTF-8
-  double number() const;                                      // finite
-  double number_or_nan() const;                               // NaN for null
+  bool is_object() const { return json_->is_object(); }
+  bool is_text() const { return json_->is_string(); }
+  const std::string& text() const;  // UTF-8
+  double number() const;            // finite
+  double number_or_nan() const;     // NaN for null
   std::uint64_t whole(std::uint64_t lowest, std::uint64_t highest) const;
-  glm::dvec3 vector() const;  // an array of three finite numbers
+  glm::dvec3 vector() const;       // an array of three finite numbers
+  ScalarType scalar_type() const;  // "uint8", "int8", ... "double", as Potree spells them
 
   // "PATH: KEY: WHAT"
   Error error(std::string_view what) const;
@@ -42,6 +46,9 @@ class JsonValue {
   const std::string* path_;
   std::string key_;  // "hierarchy.depth", "attributes[3].type"; empty for the document
 };
+
+// The content of a file of JSON. Throws Error when it is longer than 64 MiB: nothing that describes a tree is.
+std::string read_json_file(const std::string& path);
 
 // Parses `text`. Throws Error naming the byte where it stops being JSON.
 nlohmann::ordered_json parse_json(std::string_view text, std::string_view path);

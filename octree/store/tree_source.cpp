@@ -16,7 +16,7 @@ namespace stipple {
 TreeSource::TreeSource(std::shared_ptr<const TreeStore> store)
     : store_(std::move(store)),
       info_(store_->info().source),
-      nodes_(in_store_order(*store_, read_whole_hierarchy(*store_))) {
+      nodes_(in_store_order(*store_, locate_all(*store_, read_whole_hierarchy(*store_)))) {
   std::uint64_t points = 0;
   for (const StoredNode& node : nodes_) {
     first_.push_back(points);

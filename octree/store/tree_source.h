@@ -13,8 +13,9 @@ namespace stipple {
 // Points in store order: node after node as they stand in the file. Their ids count in that order.
 class TreeSource : public PointSource {
  public:
-  // Reads the whole hierarchy. info() states the points that the nodes hold; where the metadata state another number, a
-  // warning says so. Throws Error when the hierarchy contradicts itself, or holds more points than the metadata state.
+  // Reads the whole hierarchy and locates its nodes. info() states the points that the nodes hold; where the metadata
+  // state another number, a warning says so. Throws Error when the hierarchy contradicts itself, or holds more points
+  // than the metadata state.
   explicit TreeSource(std::shared_ptr<const TreeStore> store);
 
   const SourceInfo& info() const override { return info_; }
@@ -22,6 +23,8 @@ class TreeSource : public PointSource {
   // A batch a node, begun in file order.
   void read(std::span<const std::size_t> attributes, const BatchConsumer& consume) const override;
 
+  // In store order; located, with points.
+  const std::vector<StoredNode>& nodes() const { return nodes_; }
   // The node that holds the point; `id` is below info().point_count.
   const StoredNode& node_of(std::uint64_t id) const;
 

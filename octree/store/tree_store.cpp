@@ -1,10 +1,12 @@
 #include "octree/store/tree_store.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <exception>
 #include <map>
 
 #include "octree/core/error.h"
@@ -96,16 +98,33 @@ std::vector<StoredNode> read_whole_hierarchy(const TreeStore& store) {
   while (!pending.empty()) {
     const Piece::Continuation next = pending.front();
     pending.pop_front();
-    read.add(next, tree[next.node]);
+    // A piece with a file of its own is its node's alone
+    if (!store.info().node_files) read.add(next, tree[next.node]);
     append_piece(tree, next.node, store.read_piece(next, tree[next.node]), pending);
   }
   return tree;
 }
 
-std::vector<StoredNode> in_store_order(const TreeStore& store, std::span<const StoredNode> hierarchy) {
+std::vector<StoredNode> locate_all(const TreeStore& store, std::span<const StoredNode> hierarchy) {
+  std::vector<StoredNode> nodes(hierarchy.size());
+  std::vector<std::exception_ptr> failures(hierarchy.size());
+  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    try {
+      nodes[i] = store.locate(hierarchy[i]);
+    } catch (const Error&) {
+      failures[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+  return nodes;
+}
+
+std::vector<StoredNode> in_store_order(const TreeStore& store, std::span<const StoredNode> located) {
   std::vector<StoredNode> nodes;
-  for (const StoredNode& node : hierarchy)
+  for (const StoredNode& node : located)
     if (node.byte_size > 0) nodes.push_back(node);
+  if (store.info().node_files) return nodes;
   std::ranges::stable_sort(nodes, {}, &StoredNode::byte_offset);
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     const StoredNode& before = nodes[i - 1];
@@ -117,6 +136,42 @@ std::vector<StoredNode> in_store_order(const TreeStore& store, std::span<const S
                       before.byte_size, before.byte_offset));
   }
   return nodes;
+}
+
+std::vector<StoredNode> uppermost_nodes(const TreeStore& store) {
+  std::vector<StoredNode> found;
+  std::deque<Piece> pieces{store.root_piece()};
+  int level = kMaxStoredLevel;
+  while (!pieces.empty()) {
+    const Piece piece = std::move(pieces.front());
+    pieces.pop_front();
+    for (std::uint32_t i = 0; i < piece.nodes.size() && piece.nodes[i].level <= level; ++i) {
+      if (std::ranges::find(piece.continued, i, &Piece::Continuation::node) != piece.continued.end()) continue;
+      const StoredNode node = store.locate(piece.nodes[i]);
+      if (node.points == 0) continue;
+      if (node.level < level) found.clear();
+      level = node.level;
+      found.push_back(node);
+    }
+    for (const Piece::Continuation& next : piece.continued)
+      if (piece.nodes[next.node].level <= level) pieces.push_back(store.read_piece(next, piece.nodes[next.node]));
+  }
+  return found;
+}
+
+void TreeStore::read_part(const StoredNode& node, std::uint64_t first, std::uint64_t count,
+                          std::span<const std::size_t> attributes, PointBatch& batch) const {
+  read_points(node, attributes, batch);
+  const auto keep = [first, count](auto& values, std::size_t each) {
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first * each));
+    values.resize(count * each);
+  };
+  keep(batch.positions, 1);
+  for (Column& column : batch.columns) keep(column.bytes, column.attribute.bytes());
+}
+
+NodeDetails TreeStore::read_details(const StoredNode& node) const {
+  throw Error(fmt::format("{}: knows nothing of node {} beside its points.", info().source.path, name_of(node)));
 }
 
 }  // namespace stipple

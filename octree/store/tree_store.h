@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -29,23 +30,29 @@ struct TreeInfo {
   double spacing = 0.0;  // of the root's points, world units; halves with every level. 0: unknown
   // No two points of an inner node are closer than this times the node's spacing. Empty: nothing is promised.
   std::optional<double> minimal_distance;
-  bool has_details = false;  // see TreeStore::read_details()
+  // World units by which points may be outside their node's cell: formats round after the cell was chosen.
+  glm::dvec3 cell_margin{0.0};
+  bool has_details = false;   // see TreeStore::read_details()
+  bool states_points = true;  // whether source.point_count comes from the metadata; else it is the sum over the nodes
   AttributeRange position_range;
   std::vector<AttributeRange> ranges;  // of each attribute of source.schema
-  std::uint64_t point_bytes = 0;       // of the file that holds the points, and nothing else
-  std::uint64_t hierarchy_bytes = 0;   // of the file that holds the hierarchy
+  // Whether every node, and every piece of the hierarchy, has a file of its own, named after the node. Else there is
+  // one for all, and byte offsets tell them apart.
+  bool node_files = false;
+  std::optional<std::uint64_t> point_bytes;      // of the file that holds the points, and nothing else, if there is one
+  std::optional<std::uint64_t> hierarchy_bytes;  // of the file that holds the hierarchy, if there is one
 };
 
-// A node as the hierarchy describes it.
+// A node as the hierarchy describes it. Not all hierarchies know its points and bytes: see TreeStore::locate().
 struct StoredNode {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
   std::uint32_t parent = kNone;
   std::array<std::uint32_t, 8> children{kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};  // x<<2 | y<<1 | z
   int level = 0;
-  glm::uvec3 cell{0};  // of 2^level cells along each axis
-  std::uint64_t points = 0;
-  std::uint64_t byte_offset = 0;  // of its points
+  glm::uvec3 cell{0};             // of 2^level cells along each axis
+  std::uint64_t points = 0;       // what the hierarchy says; of a located node, what there is
+  std::uint64_t byte_offset = 0;  // of its points, in their file
   std::uint64_t byte_size = 0;
 
   bool is_leaf() const {
@@ -90,7 +97,7 @@ class TreeStore {
   struct HierarchyPiece {
     struct Continuation {
       std::uint32_t node = 0;   // of this piece; it is the first node of the next
-      std::uint64_t piece = 0;  // where the next piece is
+      std::uint64_t piece = 0;  // where in the hierarchy's file the next piece is; 0 + 0 where it has a file of its own
       std::uint64_t piece_size = 0;
     };
     std::vector<StoredNode> nodes;
@@ -102,7 +109,13 @@ class TreeStore {
   // hierarchy breaks off or contradicts itself.
   virtual HierarchyPiece read_piece(const HierarchyPiece::Continuation& where, const StoredNode& parent) const = 0;
 
-  // Positions and the attributes asked for (indices into info().source.schema) of one node, in stored order.
+  // The node as its points' file has it. Reads a header at most; a tree whose hierarchy knows it all returns `node`.
+  // Throws Error when the file is missing or broken off, or contradicts a hierarchy that ought to know.
+  virtual StoredNode locate(const StoredNode& node) const = 0;
+  // Whether locate() or read_details() reads anything.
+  bool must_locate() const { return info().node_files || info().has_details; }
+
+  // Positions and the attributes asked for (indices into info().source.schema) of a located node, in stored order.
   // `batch.first` stays as it is. Throws Error when the data break off or contradict the node.
   virtual void read_points(const StoredNode& node, std::span<const std::size_t> attributes,
                            PointBatch& batch) const = 0;
@@ -111,19 +124,36 @@ class TreeStore {
   virtual bool reads_parts() const = 0;
   // As read_points(), of points [first, first + count) of the node, which has as many.
   virtual void read_part(const StoredNode& node, std::uint64_t first, std::uint64_t count,
-                         std::span<const std::size_t> attributes, PointBatch& batch) const = 0;
+                         std::span<const std::size_t> attributes, PointBatch& batch) const;
 
-  // Of a node with points, if info().has_details: trees that are not ours know nothing. Throws Error when the details
-  // break off or do not know the node.
-  virtual NodeDetails read_details(const StoredNode& node) const = 0;
+  // Of a located node with points, if info().has_details: trees that are not ours know nothing. Throws Error when the
+  // details break off or do not know the node.
+  virtual NodeDetails read_details(const StoredNode& node) const;
+
+  // From disk since the tree was opened, all included: metadata, hierarchy, headers, points.
+  std::uint64_t bytes_read() const { return bytes_read_.load(std::memory_order_relaxed); }
+
+ protected:
+  void count_read(std::uint64_t bytes) const { bytes_read_.fetch_add(bytes, std::memory_order_relaxed); }
+
+ private:
+  mutable std::atomic<std::uint64_t> bytes_read_{0};
 };
 
 // The whole hierarchy in memory, pieces joined, parents before children. Throws Error when pieces overlap, which would
 // let a small file describe a tree without end.
 std::vector<StoredNode> read_whole_hierarchy(const TreeStore& store);
 
-// The nodes of a whole hierarchy that have points, in the order in which these stand in the file. Throws Error naming
-// two nodes that share bytes, which would let a small file hold points without end.
-std::vector<StoredNode> in_store_order(const TreeStore& store, std::span<const StoredNode> hierarchy);
+// The nodes of a hierarchy, located on all cores. Throws the Error of the first, in their order, that cannot be.
+std::vector<StoredNode> locate_all(const TreeStore& store, std::span<const StoredNode> hierarchy);
+
+// The located nodes of a whole hierarchy that have points, in store order: that in which these stand in the file, or
+// that of the hierarchy where every node has its own. Throws Error naming two nodes that share bytes, which would let a
+// small file hold points without end.
+std::vector<StoredNode> in_store_order(const TreeStore& store, std::span<const StoredNode> located);
+
+// The located nodes with points of the uppermost level that has any: the root, but in trees that begin lower down.
+// Reads no more of the hierarchy than it takes to find them.
+std::vector<StoredNode> uppermost_nodes(const TreeStore& store);
 
 }  // namespace stipple

@@ -19,12 +19,26 @@ void Hierarchical::start_view(const View& view) {
   next_ = 0;
   to_request_ = 0;
   under_way_ = 0;
-  for (const VisibleCluster& cluster : supply_->visible(view)) {
+  append(supply_->visible(view));
+}
+
+void Hierarchical::append(const std::vector<VisibleCluster>& clusters) {
+  for (const VisibleCluster& cluster : clusters) {
     const double allowed = std::clamp(std::ceil(cluster.pixels), kLeastRound, 1e9);
-    readings_.push_back(
-        {cluster.handle, cluster.count, 0, std::min(static_cast<std::uint32_t>(allowed), cluster.count)});
+    readings_.push_back({cluster.handle, cluster.count, 0, std::min(static_cast<std::uint32_t>(allowed), cluster.count),
+                         cluster.distance});
     to_request_ += cluster.count;
   }
+}
+
+// What a view finds late takes its place, front to back, among what this round has not come to yet.
+void Hierarchical::take_discovered() {
+  const auto known = static_cast<std::ptrdiff_t>(readings_.size());
+  append(supply_->discovered());
+  if (known == static_cast<std::ptrdiff_t>(readings_.size())) return;
+  const auto first = readings_.begin() + std::min(known, static_cast<std::ptrdiff_t>(next_) + 1);
+  std::inplace_merge(first, readings_.begin() + known, readings_.end(),
+                     [](const Reading& a, const Reading& b) { return a.distance < b.distance; });
 }
 
 void Hierarchical::next_round() {
@@ -52,6 +66,7 @@ Selection Hierarchical::select(std::uint32_t budget) {
   budget = std::min(budget, stream_.section_points());
   Selection selection;
   if (budget == 0) return selection;
+  take_discovered();
   request_up_to(supply_->read_ahead(budget));
   const std::vector<PointPiece> pieces = supply_->collect(budget);
   for (const PointPiece& piece : pieces) selection.points += piece.count;

@@ -24,7 +24,7 @@ class Hierarchical final : public Method {
   Carry carry() const override { return Carry::grid; }
   void start_view(const View& view) override;
   Selection select(std::uint32_t budget) override;
-  bool finished() const override { return to_request_ == 0 && under_way_ == 0; }
+  bool finished() const override { return to_request_ == 0 && under_way_ == 0 && !supply_->searching(); }
   SelectionCounts counts() const override { return {supply_->visible_nodes(), supply_->bytes_read()}; }
 
  private:
@@ -33,8 +33,11 @@ class Hierarchical final : public Method {
     std::uint32_t count;      // points of the cluster
     std::uint32_t requested;  // of them for this view
     std::uint32_t allowed;    // of them to be requested by the end of this round
+    double distance;          // from the eye
   };
 
+  void append(const std::vector<VisibleCluster>& clusters);
+  void take_discovered();
   void request_up_to(std::uint64_t under_way);
   void next_round();
 

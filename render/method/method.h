@@ -30,7 +30,7 @@ struct Selection {
 // Sums since the method was made, but for nodes_visible, which is the current view's.
 struct SelectionCounts {
   std::uint64_t nodes_visible = 0;
-  std::uint64_t bytes_read = 0;  // streamed from main memory to the GPU
+  std::uint64_t bytes_read = 0;  // from disk, the opening of the tree included, or streamed from main memory to the GPU
 };
 
 class Method {

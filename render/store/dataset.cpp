@@ -16,6 +16,7 @@
 #include "octree/store/open_tree.h"
 #include "octree/store/tree_source.h"
 #include "render/store/colorize.h"
+#include "render/store/tree_ids.h"
 
 namespace stipple {
 namespace {
@@ -43,18 +44,22 @@ void to_store_order(PointSet& set, const Octree& octree) {
   set.ids = octree.order;
 }
 
-// The root's points as a cloud of their own, with what the colour needs.
+// The points of the root, or of the nodes at which the tree begins, as a cloud of their own, with what the colour
+// needs.
 Cloud root_of(const TreeStore& tree, const std::string& color) {
   Cloud cloud;
   cloud.info = tree.info().source;
-  const TreeStore::HierarchyPiece piece = tree.root_piece();
   std::vector<std::size_t> attributes;
   if (const auto index = find_attribute(cloud.info.schema, color)) attributes.push_back(*index);
+  for (const std::size_t index : attributes) cloud.columns.push_back({cloud.info.schema[index], {}});
   PointBatch batch;
-  for (const std::size_t index : attributes) batch.columns.push_back({cloud.info.schema[index], {}});
-  if (!piece.nodes.empty() && piece.nodes.front().points > 0) tree.read_points(piece.nodes.front(), attributes, batch);
-  cloud.positions = std::move(batch.positions);
-  cloud.columns = std::move(batch.columns);
+  for (const StoredNode& node : uppermost_nodes(tree)) {
+    tree.read_points(node, attributes, batch);
+    cloud.positions.insert(cloud.positions.end(), batch.positions.begin(), batch.positions.end());
+    for (std::size_t c = 0; c < attributes.size(); ++c)
+      cloud.columns[c].bytes.insert(cloud.columns[c].bytes.end(), batch.columns[c].bytes.begin(),
+                                    batch.columns[c].bytes.end());
+  }
   for (const glm::ivec3& p : cloud.positions) cloud.bounds.extend(p);
   return cloud;
 }
@@ -88,7 +93,10 @@ Dataset open_dataset(const std::string& path, const std::string& color, const Da
   dataset.root = make_point_set(root, dataset.colors);
   if (needs.points) {
     const TreeSource source(dataset.tree);
+    dataset.info = source.info();
     dataset.points = make_point_set(load_cloud(source, attributes_for_color(chosen)), dataset.colors);
+    dataset.points.ids = ids_of(source.nodes());
+    dataset.bytes_to_load = dataset.tree->bytes_read();
   } else {
     dataset.points.grid = dataset.info.grid;
   }

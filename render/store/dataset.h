@@ -17,14 +17,15 @@ namespace stipple {
 
 // The points every renderer of a comparison shares. Where an octree was built they stand in its store order and keep
 // the ids they have in the source, so that all methods, with a tree or without, break ties alike. Of an octree on disk
-// the ids count points in store order.
+// the ids are those of first_id_of(), in memory and on disk.
 struct Dataset {
   SourceInfo info;
   ColorMap colors;  // what the points are coloured by
   PointSet points;  // grid and bounds alone, where a tree on disk was not to be loaded
   std::optional<Octree> octree;
   std::shared_ptr<const TreeStore> tree;  // the input itself, if it is an octree on disk
-  PointSet root;                          // the points of its root
+  PointSet root;                          // the points of its root, or of where it begins
+  std::uint64_t bytes_to_load = 0;        // read from it to have all points in memory; 0 where they are not
   double load_seconds = 0.0;              // reading and colouring
   double build_seconds = 0.0;             // building the octree and putting the points in its order
 

@@ -20,8 +20,9 @@ std::vector<VisibleCluster> MemorySupply::visible(const View& view) {
       const Cluster& cluster = octree_.clusters[c];
       const WorldBox box = world_box(octree_.grid, cluster.box);
       if (!may_see(frustum, box)) continue;
-      clusters.push_back(
-          {c, cluster.count, estimated_pixels(cluster.profile, octree_.cube.edge, nearest_pixel_size(view, box))});
+      clusters.push_back({c, cluster.count,
+                          estimated_pixels(cluster.profile, octree_.cube.edge, nearest_pixel_size(view, box)),
+                          visible.distance});
     }
   }
   return clusters;

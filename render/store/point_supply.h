@@ -15,22 +15,28 @@ struct VisibleCluster {
   std::uint32_t handle = 0;  // what the supply knows it by; valid until the next call of visible()
   std::uint32_t count = 0;   // points
   double pixels = 0.0;       // estimated to be covered by all of them
+  double distance = 0.0;     // of its node's nearest place from the eye, world units
 };
 
 class PointSupply {
  public:
   virtual ~PointSupply() = default;
 
-  // The clusters with points that `view` may see, front to back. Forgets what was requested before.
+  // The clusters with points that `view` may see, front to back, as far as they are known without waiting. Forgets what
+  // was requested before.
   virtual std::vector<VisibleCluster> visible(const View& view) = 0;
+  // Those that became known since, front to back. Throws Error when reading failed.
+  virtual std::vector<VisibleCluster> discovered() { return {}; }
+  // Whether discovered() may have more to give, now or later.
+  virtual bool searching() const { return false; }
   // Nodes those clusters belong to.
   virtual std::size_t visible_nodes() const = 0;
 
   // Asks for points [first, first + count) of a cluster.
   virtual void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) = 0;
   // Requested points that have arrived, `most` at most, each given once; they stay valid until the next call of any
-  // function. While requests are under way and none has arrived, waits for a moment before it gives nothing. Throws
-  // Error when reading failed.
+  // function. While requests are under way, or clusters searched for, and none has arrived, waits for a moment before
+  // it gives nothing. Throws Error when reading failed.
   virtual std::vector<PointPiece> collect(std::uint32_t most) = 0;
   // Points to have under way so that collect() seldom waits, for a frame of `budget` points.
   virtual std::uint64_t read_ahead(std::uint32_t budget) const = 0;

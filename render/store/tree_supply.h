@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <unordered_map>
 #include <vector>
@@ -18,30 +19,47 @@
 
 namespace stipple {
 
-// Holds the hierarchy, and of the points only those that are under way: at most read_ahead() of them, and those of the
-// frame being drawn. Stable ids count points in store order.
+// Holds that part of the hierarchy that views have come to, and of the points only those that are under way: at most
+// read_ahead() of them, and those of the frame being drawn. Stable ids are those of first_id_of().
 class TreeSupply final : public PointSupply {
  public:
-  TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors);
+  // `bytes_before`: of what was read from the store so far, what bytes_read() leaves out.
+  TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before = 0);
   ~TreeSupply() override;
   TreeSupply(const TreeSupply&) = delete;
   TreeSupply& operator=(const TreeSupply&) = delete;
 
   std::vector<VisibleCluster> visible(const View& view) override;
+  std::vector<VisibleCluster> discovered() override;
+  bool searching() const override { return asked_ > 0; }
   std::size_t visible_nodes() const override { return visible_nodes_; }
   void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) override;
   std::vector<PointPiece> collect(std::uint32_t most) override;
   std::uint64_t read_ahead(std::uint32_t budget) const override { return 3ull * budget; }
-  std::uint64_t bytes_read() const override;
+  std::uint64_t bytes_read() const override { return store_->bytes_read() - bytes_before_; }
+  // Pieces of the hierarchy that were read after the first.
+  std::uint64_t pieces_read() const { return pieces_read_; }
 
  private:
+  enum class Knowledge {
+    continued,  // another piece of the hierarchy begins with this node
+    listed,     // the hierarchy is known, the node not located
+    known,
+  };
+  struct Node {
+    StoredNode stored;
+    Knowledge knowledge = Knowledge::listed;
+    bool asked = false;  // a lookup is queued or under way
+    TreeStore::HierarchyPiece::Continuation where{};
+  };
   // A cluster of a node in sight; the whole node where the tree knows no clusters.
   struct Part {
     std::uint32_t node;
     std::uint32_t first;  // point of the node
   };
   struct Request {
-    Part part;
+    StoredNode node;
+    std::uint32_t first;
     std::uint32_t count;
     std::uint64_t view;  // which call of visible() it belongs to
   };
@@ -50,19 +68,44 @@ class TreeSupply final : public PointSupply {
     std::uint32_t first_id = 0;
     std::uint32_t given = 0;  // of them, by collect()
   };
+  // What is to be found out of a node, and what was.
+  struct Lookup {
+    std::uint32_t index;
+    Node node;
+    TreeStore::HierarchyPiece piece{};
+    std::optional<NodeDetails> details{};
+    std::exception_ptr failure{};
+  };
+  // What a view may see, as found on a walk through the hierarchy.
+  struct Sight {
+    double distance;
+    std::uint32_t node;
+    auto operator<=>(const Sight&) const = default;
+  };
 
-  void append_clusters(std::uint32_t node, const View& view, const Frustum& frustum,
-                       std::vector<VisibleCluster>& clusters);
-  void work();
+  std::optional<double> distance_if_seen(std::uint32_t node) const;
+  std::vector<VisibleCluster> walk(std::vector<std::uint32_t> roots);
+  void ask(const std::vector<Sight>& unknown);
+  void append_clusters(const Sight& sight, std::vector<VisibleCluster>& clusters);
+  void take_piece(std::uint32_t index, const TreeStore::HierarchyPiece& piece);
+  void forget_queue();
+  void work(bool looks_first);
+  void do_lookup(std::unique_lock<std::mutex>& lock);
+  void do_request(std::unique_lock<std::mutex>& lock);
+  void look_up(Lookup& lookup) const;
   Arrival read(const Request& request) const;
 
   std::shared_ptr<const TreeStore> store_;
   ColorMap colors_;
-  std::vector<std::size_t> attributes_;                     // that the colour needs
-  std::vector<StoredNode> nodes_;                           // with points, in store order
-  std::vector<std::uint32_t> first_id_;                     // of each
-  std::unordered_map<std::uint32_t, NodeDetails> details_;  // of nodes that were in sight
-  std::vector<Part> parts_;                                 // of this view; handles are indices
+  std::uint64_t bytes_before_;
+  std::vector<std::size_t> attributes_;  // that the colour needs
+  std::vector<Node> nodes_;              // that views came to, the root first
+  std::size_t asked_ = 0;                // of them
+  std::uint64_t pieces_read_ = 0;
+  std::unordered_map<std::uint32_t, NodeDetails> details_;  // of known nodes
+  View view_{};                                             // the current one
+  Frustum frustum_{};
+  std::vector<Part> parts_;  // of this view; handles are indices
   std::size_t visible_nodes_ = 0;
   std::vector<Arrival> given_;  // what the last collect() handed out
 
@@ -70,12 +113,14 @@ class TreeSupply final : public PointSupply {
   mutable std::mutex mutex_;
   std::condition_variable work_ready_;
   std::condition_variable arrived_;
+  std::deque<Lookup> lookups_;
+  std::deque<Lookup> found_;
   std::deque<Request> queue_;
   std::deque<Arrival> arrivals_;
   std::exception_ptr failure_;
-  std::uint64_t view_ = 0;
-  std::uint64_t bytes_read_ = 0;
-  std::size_t under_way_ = 0;  // requests queued or being read for the current view
+  std::uint64_t view_number_ = 0;
+  std::size_t under_way_ = 0;   // requests queued or being read for the current view
+  std::size_t looking_up_ = 0;  // lookups queued or under way
   bool stop_ = false;
 
   std::vector<std::thread> threads_;

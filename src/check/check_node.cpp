@@ -16,9 +16,6 @@ std::string text_of(const glm::dvec3& v) {
 // Limits are printed and read back as decimals.
 constexpr double kDecimalRounding = 1e-9;
 
-// In grid steps. Corners of cells need not lie on the grid, and PotreeConverter picks the cell before it rounds the
-// point to the grid: in the lion of the Potree project, points are up to 0.75 steps outside.
-constexpr double kCellTolerance = 1.0;
 // In grid steps. PotreeConverter states the bounds of its input, rounded; then it rounds the points. The same lion: 1.
 constexpr double kPositionTolerance = 1.5;
 
@@ -69,8 +66,8 @@ bool can_be_profile(const BoxCounts& profile, std::uint64_t points) {
 std::optional<std::string> check_cell(const TreeInfo& info, const StoredNode& node, const PointBatch& points) {
   const Grid& grid = info.source.grid;
   const WorldBox cell = cell_of(info.cube, node);
-  const glm::dvec3 min = grid.grid_from_world(cell.min) - kCellTolerance;
-  const glm::dvec3 max = grid.grid_from_world(cell.max) + kCellTolerance;
+  const glm::dvec3 min = grid.grid_from_world(cell.min - info.cell_margin);
+  const glm::dvec3 max = grid.grid_from_world(cell.max + info.cell_margin);
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     const glm::dvec3 p(points.positions[i]);
     if (glm::all(glm::lessThanEqual(min, p)) && glm::all(glm::lessThanEqual(p, max))) continue;

@@ -11,7 +11,7 @@ namespace stipple {
 
 // Each returns what is wrong with the first offending point, in a sentence; nothing when all is well.
 
-// Each point in the node's cell, give or take a grid step.
+// Each point in the node's cell, give or take TreeInfo::cell_margin.
 std::optional<std::string> check_cell(const TreeInfo& info, const StoredNode& node, const PointBatch& points);
 
 // Each value within the range that the tree states for its attribute. `points` has a column an attribute.

@@ -67,16 +67,19 @@ std::vector<LevelReport> count_levels(const TreeStore& store, const std::vector<
 }
 
 std::optional<Defect> check_bytes(const TreeStore& store, const std::vector<StoredNode>& nodes) {
+  if (store.info().node_files) return std::nullopt;  // locating the nodes held each file to what it should have
+  const std::vector<StoredNode> ordered = in_store_order(store, nodes);
+  if (!store.info().point_bytes) return std::nullopt;  // the file holds more than points
   std::uint64_t end = 0;
-  for (const StoredNode& node : in_store_order(store, nodes)) {
+  for (const StoredNode& node : ordered) {
     if (node.byte_offset != end)
       return Defect{name_of(node),
                     fmt::format("bytes {} to {} of the points before it belong to no node", end, node.byte_offset)};
     end += node.byte_size;
   }
-  if (end != store.info().point_bytes)
+  if (end != *store.info().point_bytes)
     return Defect{
-        "", fmt::format("the last node's points end at byte {}, and the file has {}", end, store.info().point_bytes)};
+        "", fmt::format("the last node's points end at byte {}, and the file has {}", end, *store.info().point_bytes)};
   return std::nullopt;
 }
 
@@ -149,16 +152,23 @@ std::optional<Defect> check_points(const TreeStore& store, const std::vector<Sto
 }  // namespace
 
 TreeReport check_tree(const TreeStore& store) {
-  const std::vector<StoredNode> nodes = read_whole_hierarchy(store);
   TreeReport report;
-  report.nodes = nodes.size();
+  std::vector<StoredNode> nodes;
+  for (const StoredNode& node : read_whole_hierarchy(store)) {
+    ++report.nodes;
+    try {
+      nodes.push_back(store.locate(node));
+      report.point_bytes += nodes.back().byte_size;
+    } catch (const Error& error) {
+      if (!report.defect) report.defect = {name_of(node), error.what()};
+    }
+  }
   report.levels = count_levels(store, nodes);
   for (const LevelReport& level : report.levels) report.points += level.points;
   const SourceInfo& info = store.info().source;
   const std::uint64_t stated = info.point_count;
-  if (!info.warnings.empty())
-    report.defect = {"", info.warnings.front()};
-  else if (stated != report.points)
+  if (!report.defect && !info.warnings.empty()) report.defect = {"", info.warnings.front()};
+  if (!report.defect && stated != report.points)
     report.defect = {"", fmt::format("the metadata state {} points, and the nodes hold {}", stated, report.points)};
   if (!report.defect) report.defect = check_bytes(store, nodes);
   const std::optional<Defect> in_points = check_points(store, nodes, report);

@@ -27,14 +27,15 @@ struct LevelReport {
 struct TreeReport {
   std::uint64_t nodes = 0;
   std::uint64_t points = 0;         // that the nodes hold
+  std::uint64_t point_bytes = 0;    // that hold them
   std::vector<LevelReport> levels;  // by level
-  std::optional<Defect> defect;     // the first: of the tree, then of the nodes, breadth first
+  std::optional<Defect> defect;     // the first: of files, of the tree, then of the nodes, breadth first
 };
 
 // Reads the whole tree once, on all cores; keeps the hierarchy in memory and a node a core. Holds that
 // - the nodes hold as many points as the metadata state;
-// - their bytes cover the point file without gaps or overlaps;
-// - the points can be read, and each is in its node's cell, give or take a grid step;
+// - each has its file, or their bytes cover the one file without gaps or overlaps;
+// - the points can be read, and each is in its node's cell, give or take its margin;
 // - values are within the ranges that the metadata state, and counted by their histograms;
 // - details (TreeStore::read_details()), where there are any, belong to the tree and fit the points;
 // - no two points of an inner node are closer than promised (TreeInfo::minimal_distance), where something is.

@@ -63,7 +63,7 @@ void print_as_json(const TreeInfo& info, const Outcome& outcome) {
               {"defect", json_of(outcome.defect())},
               {"points", outcome.tree.points},
               {"nodes", outcome.tree.nodes},
-              {"bytes", info.point_bytes},
+              {"bytes", outcome.tree.point_bytes},
               {"minimal_distance", info.minimal_distance ? Json(*info.minimal_distance) : Json(nullptr)},
               {"levels", levels},
               {"against", outcome.against ? json_of(*outcome.against) : Json(nullptr)}});
@@ -82,7 +82,7 @@ void print_names(std::string_view label, const std::vector<std::string>& names) 
 
 void print_as_text(const TreeInfo& info, const Outcome& outcome) {
   fmt::print("{} points in {} nodes, {} bytes\n\n", with_thousands(outcome.tree.points),
-             with_thousands(outcome.tree.nodes), with_thousands(info.point_bytes));
+             with_thousands(outcome.tree.nodes), with_thousands(outcome.tree.point_bytes));
   fmt::print("level      nodes           points      spacing   closest in an inner node\n");
   for (std::size_t i = 0; i < outcome.tree.levels.size(); ++i) {
     const LevelReport& level = outcome.tree.levels[i];

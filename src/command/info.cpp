@@ -19,6 +19,7 @@ namespace {
 
 struct Options {
   std::string input;
+  bool exact = false;
   bool json = false;
 };
 
@@ -27,14 +28,27 @@ struct Level {
   std::uint64_t points = 0;
 };
 
-std::vector<Level> levels_of(const TreeStore& store) {
+// What the whole hierarchy says, or the nodes themselves.
+struct Nodes {
   std::vector<Level> levels;
-  for (const StoredNode& node : read_whole_hierarchy(store)) {
-    levels.resize(std::max<std::size_t>(levels.size(), node.level + 1));
-    ++levels[node.level].nodes;
-    levels[node.level].points += node.points;
+  std::uint64_t count = 0;
+  std::uint64_t points = 0;
+  std::uint64_t bytes = 0;
+};
+
+Nodes nodes_of(const TreeStore& store, bool exact) {
+  std::vector<StoredNode> hierarchy = read_whole_hierarchy(store);
+  if (exact) hierarchy = locate_all(store, hierarchy);
+  Nodes nodes;
+  nodes.count = hierarchy.size();
+  for (const StoredNode& node : hierarchy) {
+    nodes.levels.resize(std::max<std::size_t>(nodes.levels.size(), node.level + 1));
+    ++nodes.levels[node.level].nodes;
+    nodes.levels[node.level].points += node.points;
+    nodes.points += node.points;
+    nodes.bytes += node.byte_size;
   }
-  return levels;
+  return nodes;
 }
 
 // Empty for what is not a regular file.
@@ -43,6 +57,13 @@ std::optional<std::uint64_t> file_bytes(const std::string& path) {
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
   if (error) return std::nullopt;
   return bytes;
+}
+
+// Of all files of the tree, as far as that is known without asking every node's.
+std::optional<std::uint64_t> bytes_of(const TreeInfo& info, const Nodes& nodes, bool exact) {
+  if (info.point_bytes) return *info.point_bytes + info.hierarchy_bytes.value_or(0);
+  if (!info.node_files) return file_bytes(info.source.path);
+  return exact ? std::optional(nodes.bytes) : std::nullopt;
 }
 
 std::optional<double> bytes_per_point(std::optional<std::uint64_t> bytes, std::uint64_t points) {
@@ -55,7 +76,7 @@ Json json_or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json source_json(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
+Json source_json(const SourceInfo& info, std::string_view points_from, std::optional<std::uint64_t> bytes) {
   Json attributes = Json::array();
   for (const Attribute& attribute : info.schema) attributes.push_back(json_of(attribute));
   return {{"path", info.path},
@@ -63,6 +84,7 @@ Json source_json(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
           {"version", info.version},
           {"encoding", info.encoding},
           {"points", info.point_count},
+          {"points_from", points_from},
           {"file_bytes", json_or_null(bytes)},
           {"bytes_per_point", json_or_null(bytes_per_point(bytes, info.point_count))},
           {"grid", {{"scale", json_of(info.grid.scale)}, {"offset", json_of(info.grid.offset)}}},
@@ -71,19 +93,15 @@ Json source_json(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
           {"warnings", info.warnings}};
 }
 
-Json tree_json(const TreeInfo& info, const std::vector<Level>& levels) {
+Json tree_json(const TreeInfo& info, const Nodes& nodes) {
   Json json_levels = Json::array();
-  std::uint64_t nodes = 0;
-  for (const Level& level : levels) {
-    json_levels.push_back({{"nodes", level.nodes}, {"points", level.points}});
-    nodes += level.nodes;
-  }
-  return {{"nodes", nodes},
-          {"depth", levels.empty() ? Json(nullptr) : Json(levels.size() - 1)},
+  for (const Level& level : nodes.levels) json_levels.push_back({{"nodes", level.nodes}, {"points", level.points}});
+  return {{"nodes", nodes.count},
+          {"depth", nodes.levels.empty() ? Json(nullptr) : Json(nodes.levels.size() - 1)},
           {"spacing", info.spacing},
           {"cube", {{"min", json_of(info.cube.min)}, {"edge", info.cube.edge}}},
-          {"point_bytes", info.point_bytes},
-          {"hierarchy_bytes", info.hierarchy_bytes},
+          {"point_bytes", json_or_null(info.point_bytes)},
+          {"hierarchy_bytes", json_or_null(info.hierarchy_bytes)},
           {"minimal_distance", json_or_null(info.minimal_distance)},
           {"levels", json_levels}};
 }
@@ -121,13 +139,13 @@ void print_as_text(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
   if (info.schema.empty()) print_line(label, "none");
 }
 
-void print_as_text(const TreeInfo& info, const std::vector<Level>& levels) {
-  std::uint64_t nodes = 0;
-  for (const Level& level : levels) nodes += level.nodes;
-  print_line("nodes", with_thousands(nodes));
+void print_as_text(const TreeInfo& info, const Nodes& nodes) {
+  const std::vector<Level>& levels = nodes.levels;
+  print_line("nodes", with_thousands(nodes.count));
   print_line("cube min", text_of(info.cube.min));
   print_line("cube edge", fmt::format("{}", info.cube.edge));
-  print_line("spacing", fmt::format("{} in the root, half of it with every level", info.spacing));
+  if (info.spacing > 0.0)
+    print_line("spacing", fmt::format("{} in the root, half of it with every level", info.spacing));
   if (info.minimal_distance)
     print_line("", fmt::format("inner nodes promise {} of it between any two points", *info.minimal_distance));
   if (!levels.empty()) print_line("depth", fmt::format("{}", levels.size() - 1));
@@ -138,17 +156,22 @@ void print_as_text(const TreeInfo& info, const std::vector<Level>& levels) {
 
 void run_on_tree(const Options& options) {
   const auto store = open_tree(options.input);
-  const TreeInfo& info = store->info();
+  TreeInfo info = store->info();
   for (const std::string& warning : info.source.warnings) warn(fmt::format("{}: {}", info.source.path, warning));
-  const std::vector<Level> levels = levels_of(*store);
-  const std::uint64_t bytes = info.point_bytes + info.hierarchy_bytes;
+  const Nodes nodes = nodes_of(*store, options.exact);
+  if (options.exact && nodes.points != info.source.point_count)
+    warn(fmt::format("{}: the metadata state {} points, and the nodes hold {}", info.source.path,
+                     info.source.point_count, nodes.points));
+  if (options.exact) info.source.point_count = nodes.points;
+  const std::optional<std::uint64_t> bytes = bytes_of(info, nodes, options.exact);
   if (!options.json) {
     print_as_text(info.source, bytes);
-    print_as_text(info, levels);
+    print_as_text(info, nodes);
     return;
   }
-  Json document = source_json(info.source, bytes);
-  document["octree"] = tree_json(info, levels);
+  const bool counted = options.exact || !info.states_points;
+  Json document = source_json(info.source, counted ? "nodes" : "metadata", bytes);
+  document["octree"] = tree_json(info, nodes);
   print_json(document);
 }
 
@@ -157,7 +180,7 @@ void run_on_file(const Options& options) {
   const SourceInfo& info = source->info();
   for (const std::string& warning : info.warnings) warn(fmt::format("{}: {}", info.path, warning));
   if (options.json)
-    print_json(source_json(info, file_bytes(info.path)));
+    print_json(source_json(info, "file", file_bytes(info.path)));
   else
     print_as_text(info, file_bytes(info.path));
 }
@@ -168,8 +191,14 @@ void add_info_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("info", "Say what a point cloud file or an octree holds, without decoding its points.");
-  command->add_option("INPUT", options->input, "Point cloud file, folder of an octree, or its metadata.json.")
+  command
+      ->add_option(
+          "INPUT", options->input,
+          "Point cloud file, COPC among them, folder of an octree, or its metadata.json, ept.json or cloud.js.")
       ->required();
+  command->add_flag("--exact", options->exact,
+                    "Of an octree, count the points that its nodes hold, from the headers and sizes of their files, "
+                    "instead of stating what its metadata say.");
   add_json_flag(*command, options->json);
   command->footer(
       "Prints the format, the number of points, the integer grid that positions lie on (scale and offset in the "
@@ -177,7 +206,9 @@ void add_info_command(CLI::App& app) {
       "own units), the bounds that the header states, and the attributes with their types; of an octree also its "
       "cube,\n"
       "its spacing, and how many nodes and points each level has. What the input is, is found out by its content, not\n"
-      "by its name. In JSON, what the input does not say is null.\n\n"
+      "by its name. In JSON, what the input does not say is null, and points_from tells whether the number of points "
+      "is\n"
+      "that of the metadata, of the nodes (--exact, or metadata that state none) or of the file.\n\n"
       "Example:\n  stipple info autzen.las --json");
   command->callback([options] { is_tree(options->input) ? run_on_tree(*options) : run_on_file(*options); });
 }

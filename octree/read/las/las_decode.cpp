@@ -40,12 +40,14 @@ void decode_positions(std::span<const std::byte> records, std::size_t record_len
   gather<sizeof(glm::ivec3)>(records.data(), record_length, out.size(), std::as_writable_bytes(out).data());
 }
 
-void decode_field(const Field& field, std::span<const std::byte> records, std::size_t record_length, Column& column) {
+void decode_field(const Field& field, std::span<const std::byte> records, std::size_t record_length,
+                  std::span<std::byte> out) {
   const std::byte* const first = records.data() + field.offset;
+  const std::size_t count = out.size() / field.attribute.bytes();
   if (field.bits != 0)
-    gather_bits(field, first, record_length, column.points(), column.bytes.data());
+    gather_bits(field, first, record_length, count, out.data());
   else
-    gather(field.attribute.bytes(), first, record_length, column.points(), column.bytes.data());
+    gather(field.attribute.bytes(), first, record_length, count, out.data());
 }
 
 }  // namespace stipple::las

@@ -13,8 +13,8 @@ namespace stipple::las {
 // `records` holds out.size() records of `record_length` bytes.
 void decode_positions(std::span<const std::byte> records, std::size_t record_length, std::span<glm::ivec3> out);
 
-// Fills `column`, whose size says how many records of `record_length` bytes there are in `records`. The column's
-// attribute is the field's.
-void decode_field(const Field& field, std::span<const std::byte> records, std::size_t record_length, Column& column);
+// Fills `out`, tightly packed values of the field's attribute, from as many records.
+void decode_field(const Field& field, std::span<const std::byte> records, std::size_t record_length,
+                  std::span<std::byte> out);
 
 }  // namespace stipple::las

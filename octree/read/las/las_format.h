@@ -37,6 +37,9 @@ inline constexpr std::size_t kEvlrCount = 243;             // u32, since 1.4
 inline constexpr std::size_t kPointCount = 247;            // u64, since 1.4
 inline constexpr std::size_t kCountsByReturn = 255;        // u64[15], since 1.4
 
+// LASzip marks a compressed file by setting this bit of the point format.
+inline constexpr int kCompressed = 0x80;
+
 // Bytes of the public header block of version 1.0, 1.1, ... 1.5.
 inline constexpr std::array<std::size_t, 6> kHeaderSizes{227, 227, 227, 235, 375, 393};
 // The highest point format that each version defines.

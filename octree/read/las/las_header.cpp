@@ -4,17 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "octree/read/las/las_bytes.h"
 #include "octree/read/las/las_extra_bytes.h"
-#include "octree/read/las/las_records.h"
 
 namespace stipple::las {
 namespace {
 
-// LASzip marks a compressed file by setting this bit of the point format.
-constexpr int kCompressed = 0x80;
 constexpr int kHighestFormat = 10;
+constexpr std::uint16_t kExtraBytesRecord = 4;  // LAS 1.4 R15, "Extra Bytes"
 
 void parse_version(const FileBytes& file, Header& header) {
   const std::span<const std::byte> signature =
@@ -53,12 +52,9 @@ std::size_t parse_sizes(const FileBytes& file, Header& header) {
 }
 
 void parse_point_format(const FileBytes& file, Header& header) {
-  const int format = file.at<std::uint8_t>(kPointFormat);
-  if (format & kCompressed)
-    throw file_error(file.path, kPointFormat,
-                     fmt::format("the points are LAZ-compressed (point format {} with bit 7 set), and this version "
-                                 "reads uncompressed LAS. Decompress the file first, with laszip for example.",
-                                 format & ~kCompressed));
+  const int stated = file.at<std::uint8_t>(kPointFormat);
+  const int format = stated & ~kCompressed;
+  header.compressed = stated != format;
   if (format > kHighestFormat)
     throw file_error(file.path, kPointFormat,
                      fmt::format("point format {} was found, and 0 to {} are read. Convert the file to one of these.",
@@ -141,24 +137,33 @@ void parse_bounds(const FileBytes& file, Header& header) {
   header.stated_bounds = box;
 }
 
-// The record that describes extra bytes, from wherever it stands.
-std::optional<std::span<const std::byte>> find_extra_bytes(const FileBytes& file, std::size_t header_size,
-                                                           Header& header) {
+// All records, wherever they stand.
+void parse_records(const FileBytes& file, std::size_t header_size, Header& header) {
   const RecordArea vlrs{header_size, header.points_begin, file.at<std::uint32_t>(kVlrCount)};
-  const auto described = find_extra_bytes_vlr(file, vlrs, header.warnings);
-  if (header.version_minor < 4) return described;
+  header.records = read_vlrs(file, vlrs, header.warnings);
+  if (header.version_minor < 4) return;
 
   const RecordArea evlrs{file.at<std::uint64_t>(kEvlrStart), file.size(), file.at<std::uint32_t>(kEvlrCount)};
-  if (evlrs.count == 0) return described;
-  if (evlrs.begin < header.points_end()) {
+  if (evlrs.count == 0) return;
+  // Where compressed points end, only who decodes them knows
+  const std::uint64_t points_end = header.compressed ? header.points_begin : header.points_end();
+  if (evlrs.begin < points_end) {
     header.warnings.push_back(fmt::format(
         "The header (byte {}) states that extended variable length records begin at byte {}, before the end of the "
         "points at byte {}; they are not read.",
-        kEvlrStart, evlrs.begin, header.points_end()));
-    return described;
+        kEvlrStart, evlrs.begin, points_end));
+    return;
   }
-  const auto described_behind = find_extra_bytes_evlr(file, evlrs, header.warnings);
-  return described ? described : described_behind;
+  for (Record& record : read_evlrs(file, evlrs, header.warnings)) header.records.push_back(std::move(record));
+}
+
+void parse_fields(const FileBytes& file, Header& header) {
+  header.fields = point_fields(header.point_format);
+  std::optional<std::span<const std::byte>> description;
+  if (const Record* record = find_record(header.records, "LASF_Spec", kExtraBytesRecord))
+    description = file.range(record->begin, record->size);
+  append_extra_bytes(description, record_size(header.point_format), header.record_length, header.fields,
+                     header.warnings);
 }
 
 // Points that were appended without counting them, say.
@@ -188,13 +193,26 @@ Header parse_header(std::span<const std::byte> bytes, std::string_view path) {
   parse_point_format(file, header);
   parse_point_count(file, header);
   parse_grid(file, header);
-  check_points_are_there(file, header);
+  if (!header.compressed) check_points_are_there(file, header);
   parse_bounds(file, header);
-  header.fields = point_fields(header.point_format);
-  append_extra_bytes(find_extra_bytes(file, header_size, header), record_size(header.point_format),
-                     header.record_length, header.fields, header.warnings);
-  warn_of_unexplained_bytes(file, header);
+  parse_records(file, header_size, header);
+  parse_fields(file, header);
+  if (!header.compressed) warn_of_unexplained_bytes(file, header);
   return header;
+}
+
+SourceInfo source_info(const Header& header, const std::string& path, std::string format) {
+  SourceInfo info;
+  info.path = path;
+  info.format = std::move(format);
+  info.version = fmt::format("1.{}", header.version_minor);
+  info.encoding = fmt::format("point format {}, {} bytes a point", header.point_format, header.record_length);
+  info.point_count = header.point_count;
+  info.grid = header.grid;
+  for (const Field& field : header.fields) info.schema.push_back(field.attribute);
+  info.stated_bounds = header.stated_bounds;
+  info.warnings = header.warnings;
+  return info;
 }
 
 }  // namespace stipple::las

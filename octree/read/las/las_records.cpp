@@ -1,29 +1,28 @@
 #include "octree/read/las/las_records.h"
 
+#include <algorithm>
+
 #include "octree/read/las/las_format.h"
 
 namespace stipple::las {
 namespace {
 
-constexpr std::uint16_t kExtraBytesRecord = 4;  // LAS 1.4 R15, "Extra Bytes"
-
-bool describes_extra_bytes(const FileBytes& file, std::uint64_t record) {
-  return file.at<std::uint16_t>(record + kRecordId) == kExtraBytesRecord &&
-         file.text(record + kRecordUserId, kRecordUserIdSize) == "LASF_Spec";
+Record record_at(const FileBytes& file, std::uint64_t at, std::uint64_t body, std::uint64_t length) {
+  return {std::string(file.text(at + kRecordUserId, kRecordUserIdSize)), file.at<std::uint16_t>(at + kRecordId), body,
+          length};
 }
 
 }  // namespace
 
-std::optional<std::span<const std::byte>> find_extra_bytes_vlr(const FileBytes& file, const RecordArea& area,
-                                                               std::vector<std::string>& warnings) {
-  std::optional<std::span<const std::byte>> found;
+std::vector<Record> read_vlrs(const FileBytes& file, const RecordArea& area, std::vector<std::string>& warnings) {
+  std::vector<Record> records;
   std::uint64_t at = area.begin;
   for (std::uint64_t i = 0; i < area.count; ++i) {
     if (area.end - at < kVlrHeaderSize) {
       warnings.push_back(fmt::format(
           "The header (byte {}) states {} variable length records, but before the points there is room for only {}.",
           kVlrCount, area.count, i));
-      return found;
+      return records;
     }
     const std::uint64_t length = file.at<std::uint16_t>(at + kRecordBodyLength);
     const std::uint64_t body = at + kVlrHeaderSize;
@@ -33,15 +32,14 @@ std::optional<std::span<const std::byte>> find_extra_bytes_vlr(const FileBytes& 
                                    "points are said to begin; at most {} were expected. The header is damaged; write "
                                    "the file anew from its source.",
                                    i + 1, length, area.end, area.end - body));
-    if (!found && describes_extra_bytes(file, at)) found = file.range(body, length);
+    records.push_back(record_at(file, at, body, length));
     at = body + length;
   }
-  return found;
+  return records;
 }
 
-std::optional<std::span<const std::byte>> find_extra_bytes_evlr(const FileBytes& file, const RecordArea& area,
-                                                                std::vector<std::string>& warnings) {
-  std::optional<std::span<const std::byte>> found;
+std::vector<Record> read_evlrs(const FileBytes& file, const RecordArea& area, std::vector<std::string>& warnings) {
+  std::vector<Record> records;
   std::uint64_t at = area.begin;
   for (std::uint64_t i = 0; i < area.count; ++i) {
     const bool header_fits = at <= area.end && area.end - at >= kEvlrHeaderSize;
@@ -51,12 +49,17 @@ std::optional<std::span<const std::byte>> find_extra_bytes_evlr(const FileBytes&
           "Extended variable length record {} of {}, at byte {}, reaches beyond the end of the file at byte "
           "{}; it and those behind it are not read.",
           i + 1, area.count, at, area.end));
-      return found;
+      return records;
     }
-    if (!found && describes_extra_bytes(file, at)) found = file.range(at + kEvlrHeaderSize, length);
+    records.push_back(record_at(file, at, at + kEvlrHeaderSize, length));
     at += kEvlrHeaderSize + length;
   }
-  return found;
+  return records;
+}
+
+const Record* find_record(std::span<const Record> records, std::string_view user_id, std::uint16_t id) {
+  const auto found = std::ranges::find_if(records, [&](const Record& r) { return r.user_id == user_id && r.id == id; });
+  return found == records.end() ? nullptr : &*found;
 }
 
 }  // namespace stipple::las

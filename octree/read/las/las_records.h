@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "octree/read/las/las_bytes.h"
@@ -18,15 +18,23 @@ struct RecordArea {
   std::uint64_t count = 0;  // as stated
 };
 
-// Both walk their chain and return the body of the first record that describes extra bytes (user id "LASF_Spec",
-// record id 4), the only one that is needed to decode points. A chain that ends early appends a sentence to `warnings`.
+// A record and where its body stands.
+struct Record {
+  std::string user_id;
+  std::uint16_t id = 0;
+  std::uint64_t begin = 0;  // byte of the file
+  std::uint64_t size = 0;
+};
+
+// Both walk their chain. One that ends early appends a sentence to `warnings`; what it holds until there is returned.
 
 // Throws Error when a record's body reaches beyond the area.
-std::optional<std::span<const std::byte>> find_extra_bytes_vlr(const FileBytes& file, const RecordArea& area,
-                                                               std::vector<std::string>& warnings);
+std::vector<Record> read_vlrs(const FileBytes& file, const RecordArea& area, std::vector<std::string>& warnings);
 
 // `area.begin` may be anywhere.
-std::optional<std::span<const std::byte>> find_extra_bytes_evlr(const FileBytes& file, const RecordArea& area,
-                                                                std::vector<std::string>& warnings);
+std::vector<Record> read_evlrs(const FileBytes& file, const RecordArea& area, std::vector<std::string>& warnings);
+
+// The first record of that name; null when there is none.
+const Record* find_record(std::span<const Record> records, std::string_view user_id, std::uint16_t id);
 
 }  // namespace stipple::las

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "octree/core/error.h"
 #include "octree/read/las/las_decode.h"
 
 namespace stipple {
@@ -39,22 +40,22 @@ void decode_batch(const InputFile& file, const las::Header& header, std::span<co
   las::decode_positions(workspace.records, header.record_length, batch.positions);
   for (std::size_t c = 0; c < fields.size(); ++c) {
     batch.columns[c].resize(count);
-    las::decode_field(fields[c], workspace.records, header.record_length, batch.columns[c]);
+    las::decode_field(fields[c], workspace.records, header.record_length, batch.columns[c].bytes);
   }
 }
 
 }  // namespace
 
-LasSource::LasSource(const std::string& path) : file_(path), header_(las::parse_header(file_.map().bytes(), path)) {
-  info_.path = path;
-  info_.format = "LAS";
-  info_.version = fmt::format("1.{}", header_.version_minor);
-  info_.encoding = fmt::format("point format {}, {} bytes a point", header_.point_format, header_.record_length);
-  info_.point_count = header_.point_count;
-  info_.grid = header_.grid;
-  for (const las::Field& field : header_.fields) info_.schema.push_back(field.attribute);
-  info_.stated_bounds = header_.stated_bounds;
-  info_.warnings = header_.warnings;
+LasSource::LasSource(const std::string& path)
+    : file_(path),
+      header_(las::parse_header(file_.map().bytes(), path)),
+      info_(las::source_info(header_, path, "LAS")) {
+  if (header_.compressed)
+    throw file_error(
+        path, las::kPointFormat,
+        fmt::format("the points are LAZ-compressed (point format {} with bit 7 set), and uncompressed ones "
+                    "were expected.",
+                    header_.point_format));
 }
 
 void LasSource::read(std::span<const std::size_t> attributes, const BatchConsumer& consume) const {

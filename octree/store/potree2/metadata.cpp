@@ -17,12 +17,6 @@ constexpr std::uint64_t kMaxComponents = 1 << 16;
 constexpr std::uint64_t kMaxRecordBytes = 1 << 20;
 constexpr double kWidestCube = 1e300;
 
-std::optional<ScalarType> type_of(std::string_view name) {
-  for (int i = 0; i <= static_cast<int>(ScalarType::f64); ++i)
-    if (name_of(static_cast<ScalarType>(i)) == name) return static_cast<ScalarType>(i);
-  return std::nullopt;
-}
-
 // The one value that all components share; `otherwise` where the file has no such key.
 double common_value(const JsonValue& attribute, std::string_view key, double otherwise) {
   const auto found = attribute.find(key);
@@ -45,9 +39,7 @@ Attribute parse_attribute(const JsonValue& json) {
     attribute.components = static_cast<int>(size);
     return attribute;
   }
-  const auto known = type_of(type);
-  if (!known) throw json["type"].error(fmt::format("\"{}\" is no type that Potree 2.0 has.", type));
-  attribute.type = *known;
+  attribute.type = json["type"].scalar_type();
   attribute.scale = common_value(json, "scale", 1.0);
   attribute.offset = common_value(json, "offset", 0.0);
   if (size != attribute.bytes())

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "octree/core/error.h"
+#include "octree/store/json_value.h"
 #include "octree/store/potree2/node_points.h"
 
 namespace stipple {
@@ -15,8 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMetadataName = "metadata.json";
-// Histograms and a thousand attributes fit; nothing that calls itself metadata is a gigabyte.
-constexpr std::uint64_t kMaxMetadataBytes = std::uint64_t{16} << 20;
+// PotreeConverter picks the cell before it rounds the point to the grid, on which the cell's corners need not be: in
+// the lion of the Potree project, points are up to 0.75 grid steps outside.
+constexpr double kCellMargin = 1.0;
 
 fs::path folder_of(const std::string& path) {
   return fs::path(path).filename() == kMetadataName ? fs::path(path).parent_path() : fs::path(path);
@@ -27,12 +29,7 @@ std::string file_beside(const std::string& path, std::string_view name) {
 }
 
 potree2::Metadata load_metadata(const std::string& path) {
-  const InputFile file(path);
-  if (file.size() > kMaxMetadataBytes)
-    throw file_error(path, kMaxMetadataBytes, "the file goes on here, and metadata are never as long.");
-  std::string text(static_cast<std::size_t>(file.size()), '\0');
-  file.read_at(0, std::as_writable_bytes(std::span(text)));
-  return potree2::parse_metadata(text, path);
+  return potree2::parse_metadata(read_json_file(path), path);
 }
 
 // The box that the metadata state for positions; the root's cell where they do not.
@@ -63,6 +60,7 @@ TreeInfo describe(const potree2::Metadata& metadata, const std::string& path) {
   const glm::dvec3 size = metadata.cube.max - metadata.cube.min;
   info.cube = {metadata.cube.min, std::max({size.x, size.y, size.z})};
   info.spacing = metadata.spacing;
+  info.cell_margin = kCellMargin * metadata.grid.scale;
   info.position_range = metadata.ranges.at(0);
   info.ranges.assign(metadata.ranges.begin() + 1, metadata.ranges.end());
   return info;
@@ -86,6 +84,7 @@ Potree2Store::Potree2Store(const std::string& path)
       points_(file_beside(path, "octree.bin")),
       point_file_{points_.size(), potree2::record_bytes(metadata_.schema), metadata_.encoding},
       info_(describe(metadata_, path)) {
+  count_read(fs::file_size(file_beside(path, kMetadataName)));
   info_.point_bytes = points_.size();
   info_.hierarchy_bytes = hierarchy_.size();
   sidecar_ = potree2::read_sidecar(folder_of(path).string(), metadata_.points, points_.size(), info_.source.warnings);
@@ -115,6 +114,7 @@ TreeStore::HierarchyPiece Potree2Store::read_piece_at(std::uint64_t offset, std:
                                  name_of(first), bytes, potree2::kRecordBytes));
   Buffer<std::byte> piece(static_cast<std::size_t>(bytes));
   hierarchy_.read_at(offset, piece);
+  count_read(bytes);
   return potree2::read_piece(piece, offset, first, point_file_, hierarchy_.path());
 }
 
@@ -122,6 +122,7 @@ void Potree2Store::read_points(const StoredNode& node, std::span<const std::size
                                PointBatch& batch) const {
   Buffer<std::byte> bytes(static_cast<std::size_t>(node.byte_size));
   points_.read_at(node.byte_offset, bytes);
+  count_read(node.byte_size);
   const auto points = static_cast<std::size_t>(node.points);
   if (metadata_.encoding == potree2::Encoding::uncompressed || node.byte_size == 0) {
     potree2::decode_records(bytes, points, metadata_.schema, attributes, batch);
@@ -139,22 +140,13 @@ void Potree2Store::read_points(const StoredNode& node, std::span<const std::size
 
 void Potree2Store::read_part(const StoredNode& node, std::uint64_t first, std::uint64_t count,
                              std::span<const std::size_t> attributes, PointBatch& batch) const {
-  if (reads_parts()) {
-    const std::uint64_t record = potree2::record_bytes(metadata_.schema);
-    StoredNode part = node;
-    part.points = count;
-    part.byte_offset += first * record;
-    part.byte_size = count * record;
-    read_points(part, attributes, batch);
-    return;
-  }
-  read_points(node, attributes, batch);
-  const auto keep = [first, count](auto& values, std::size_t each) {
-    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first * each));
-    values.resize(count * each);
-  };
-  keep(batch.positions, 1);
-  for (Column& column : batch.columns) keep(column.bytes, column.attribute.bytes());
+  if (!reads_parts()) return TreeStore::read_part(node, first, count, attributes, batch);
+  const std::uint64_t record = potree2::record_bytes(metadata_.schema);
+  StoredNode part = node;
+  part.points = count;
+  part.byte_offset += first * record;
+  part.byte_size = count * record;
+  read_points(part, attributes, batch);
 }
 
 NodeDetails Potree2Store::read_details(const StoredNode& node) const {
@@ -162,7 +154,9 @@ NodeDetails Potree2Store::read_details(const StoredNode& node) const {
   if (!found || found->points != node.points || found->level != static_cast<std::uint32_t>(node.level))
     throw Error(fmt::format("{}: {}: node {} with {} points on level {} was expected, and is not there.",
                             info_.source.path, potree2::kSidecarName, name_of(node), node.points, node.level));
-  return {found->box, found->profile, sidecar_->clusters(*found)};
+  NodeDetails details{found->box, found->profile, sidecar_->clusters(*found)};
+  count_read(sidecar_->bytes_of(*found));
+  return details;
 }
 
 bool is_potree2(const std::string& path) {

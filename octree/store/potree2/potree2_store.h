@@ -24,6 +24,7 @@ class Potree2Store : public TreeStore {
   const TreeInfo& info() const override { return info_; }
   HierarchyPiece root_piece() const override { return root_piece_; }
   HierarchyPiece read_piece(const HierarchyPiece::Continuation& where, const StoredNode& parent) const override;
+  StoredNode locate(const StoredNode& node) const override { return node; }
   void read_points(const StoredNode& node, std::span<const std::size_t> attributes, PointBatch& batch) const override;
   bool reads_parts() const override { return metadata_.encoding == potree2::Encoding::uncompressed; }
   void read_part(const StoredNode& node, std::uint64_t first, std::uint64_t count,

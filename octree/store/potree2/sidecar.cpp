@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cstring>
 #include <filesystem>
 
@@ -57,6 +58,11 @@ std::optional<SidecarNode> Sidecar::find(std::uint64_t byte_offset) const {
       last = middle;
   }
   return std::nullopt;
+}
+
+std::uint64_t Sidecar::bytes_of(const SidecarNode& node) const {
+  return static_cast<std::uint64_t>(std::bit_width(header_.nodes)) * kSidecarNodeBytes +
+         node.clusters * kSidecarClusterBytes;
 }
 
 std::vector<Cluster> Sidecar::clusters(const SidecarNode& node) const {

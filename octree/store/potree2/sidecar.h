@@ -72,6 +72,8 @@ class Sidecar {
   // The node whose points begin at `byte_offset` of octree.bin.
   std::optional<SidecarNode> find(std::uint64_t byte_offset) const;
   std::vector<Cluster> clusters(const SidecarNode& node) const;
+  // What finding the node and its clusters reads, at most.
+  std::uint64_t bytes_of(const SidecarNode& node) const;
 
  private:
   InputFile file_;
