@@ -63,6 +63,7 @@ Json source_json(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
           {"version", info.version},
           {"encoding", info.encoding},
           {"points", info.point_count},
+          {"dropped_points", info.dropped_points},
           {"file_bytes", json_or_null(bytes)},
           {"bytes_per_point", json_or_null(bytes_per_point(bytes, info.point_count))},
           {"grid", {{"scale", json_of(info.grid.scale)}, {"offset", json_of(info.grid.offset)}}},
@@ -98,9 +99,12 @@ void print_line(std::string_view label, std::string_view value) {
 
 void print_as_text(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
   print_line("path", info.path);
-  print_line("format", fmt::format("{} {}", info.format, info.version));
+  print_line("format", info.version.empty() ? info.format : fmt::format("{} {}", info.format, info.version));
   print_line("encoding", info.encoding);
   print_line("points", with_thousands(info.point_count));
+  if (info.dropped_points > 0)
+    print_line("",
+               fmt::format("{} more have no finite position and are left out", with_thousands(info.dropped_points)));
   if (bytes) print_line("file size", fmt::format("{} bytes", with_thousands(*bytes)));
   if (const auto each = bytes_per_point(bytes, info.point_count))
     print_line("", fmt::format("{:.2f} bytes a point, all included", *each));
@@ -166,8 +170,7 @@ void run_on_file(const Options& options) {
 
 void add_info_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("info", "Say what a point cloud file or an octree holds, without decoding its points.");
+  CLI::App* command = app.add_subcommand("info", "Say what a point cloud file or an octree holds.");
   command->add_option("INPUT", options->input, "Point cloud file, folder of an octree, or its metadata.json.")
       ->required();
   add_json_flag(*command, options->json);
@@ -177,7 +180,9 @@ void add_info_command(CLI::App& app) {
       "own units), the bounds that the header states, and the attributes with their types; of an octree also its "
       "cube,\n"
       "its spacing, and how many nodes and points each level has. What the input is, is found out by its content, not\n"
-      "by its name. In JSON, what the input does not say is null.\n\n"
+      "by its name. Of PLY, PCD, OBJ and text, which state neither grid nor bounds, the positions are read to find "
+      "them.\n"
+      "In JSON, what the input does not say is null.\n\n"
       "Example:\n  stipple info autzen.las --json");
   command->callback([options] { is_tree(options->input) ? run_on_tree(*options) : run_on_file(*options); });
 }
