@@ -79,6 +79,11 @@ Dataset open_dataset(const std::string& path, const std::string& color, const Da
   return dataset;
 }
 
+Dataset open_dataset(const std::vector<std::string>& paths, const std::string& color, const DatasetNeeds& needs) {
+  if (paths.size() == 1) return open_dataset(paths.front(), color, needs);
+  return load_dataset(*open_source(paths), color, needs.octree);
+}
+
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree) {
   Dataset dataset;
   auto start = Clock::now();

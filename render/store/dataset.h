@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "octree/cloud/source.h"
 #include "octree/store/tree_store.h"
@@ -39,8 +40,10 @@ struct DatasetNeeds {
   bool octree = false;  // an octree, in memory where the input is none itself
 };
 
-// Opens, reads and colours `path` (see choose_color).
+// Opens, reads and colours `path` (see open_source() and choose_color()).
 Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs);
+// All of them as one cloud; an octree among several is read like a file.
+Dataset open_dataset(const std::vector<std::string>& paths, const std::string& color, const DatasetNeeds& needs);
 
 // Reads and colours a source that is no tree; builds the octree when asked to.
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree);

@@ -18,7 +18,7 @@ namespace stipple {
 namespace {
 
 struct Options {
-  std::string input;
+  std::vector<std::string> inputs;
   bool json = false;
 };
 
@@ -141,7 +141,7 @@ void print_as_text(const TreeInfo& info, const std::vector<Level>& levels) {
 }
 
 void run_on_tree(const Options& options) {
-  const auto store = open_tree(options.input);
+  const auto store = open_tree(options.inputs.front());
   const TreeInfo& info = store->info();
   for (const std::string& warning : info.source.warnings) warn(fmt::format("{}: {}", info.source.path, warning));
   const std::vector<Level> levels = levels_of(*store);
@@ -157,7 +157,7 @@ void run_on_tree(const Options& options) {
 }
 
 void run_on_file(const Options& options) {
-  const auto source = open_source(options.input);
+  const auto source = open_source(options.inputs);
   const SourceInfo& info = source->info();
   for (const std::string& warning : info.warnings) warn(fmt::format("{}: {}", info.path, warning));
   if (options.json)
@@ -171,7 +171,10 @@ void run_on_file(const Options& options) {
 void add_info_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("info", "Say what a point cloud file or an octree holds.");
-  command->add_option("INPUT", options->input, "Point cloud file, folder of an octree, or its metadata.json.")
+  command
+      ->add_option(
+          "INPUT", options->inputs,
+          "Point cloud files, folders of them, or an octree: its folder or metadata.json. Several are one cloud.")
       ->required();
   add_json_flag(*command, options->json);
   command->footer(
@@ -184,7 +187,9 @@ void add_info_command(CLI::App& app) {
       "them.\n"
       "In JSON, what the input does not say is null.\n\n"
       "Example:\n  stipple info autzen.las --json");
-  command->callback([options] { is_tree(options->input) ? run_on_tree(*options) : run_on_file(*options); });
+  command->callback([options] {
+    options->inputs.size() == 1 && is_tree(options->inputs.front()) ? run_on_tree(*options) : run_on_file(*options);
+  });
 }
 
 }  // namespace stipple
