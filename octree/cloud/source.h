@@ -20,9 +20,11 @@ struct SourceInfo {
   std::string version;   // "1.4"
   std::string encoding;  // "point format 7, 36 bytes a point"
   std::uint64_t point_count = 0;
+  std::uint64_t dropped_points = 0;  // of the file, not in point_count: those without a finite position
   Grid grid;
   Schema schema;           // everything a point carries beside its position
-  WorldBox stated_bounds;  // what the header says; empty when it says nothing. Headers lie: see Cloud::bounds
+  WorldBox stated_bounds;  // what the header says, or what opening found out; empty when neither says anything.
+                           // Headers lie: see Cloud::bounds
   std::vector<std::string> warnings;  // oddities that lose no point, in sentences
 };
 

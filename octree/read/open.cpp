@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <string_view>
 
@@ -11,11 +10,18 @@
 #include "octree/read/input_file.h"
 #include "octree/read/las/las_source.h"
 #include "octree/read/laz/laz_source.h"
+#include "octree/read/obj/obj_source.h"
+#include "octree/read/pcd/pcd_header.h"
+#include "octree/read/pcd/pcd_source.h"
+#include "octree/read/ply/ply_header.h"
+#include "octree/read/ply/ply_source.h"
+#include "octree/read/text/text_source.h"
 
 namespace stipple {
 namespace {
 
-constexpr std::string_view kWhatIsRead = "LAS and LAZ 1.0-1.5, point formats 0-10";
+constexpr std::string_view kWhatIsRead =
+    "LAS or LAZ 1.0-1.5 with point formats 0-10, PLY, PCD, OBJ, or text with x, y and z in each line";
 
 // "4c 41 53 46 (LASF)"; what is no printable ASCII shows as a dot.
 std::string describe(std::span<const std::byte> bytes) {
@@ -39,23 +45,27 @@ bool is_compressed(const InputFile& file) {
 }  // namespace
 
 std::unique_ptr<PointSource> open_file(const std::string& path) {
-  std::array<std::byte, 8> start{};
   const InputFile file(path);
-  const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), start.size()));
-  if (count == 0)
+  std::string start(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kTextStart)), '\0');
+  if (start.empty())
     throw file_error(path, 0,
                      fmt::format("the file is empty, and {} was expected. Copy or download it again.", kWhatIsRead));
-  const std::span<std::byte> seen = std::span(start).first(count);
-  file.read_at(0, seen);
+  file.read_at(0, std::as_writable_bytes(std::span(start)));
 
-  if (std::string_view(reinterpret_cast<const char*>(seen.data()), seen.size()).starts_with("LASF")) {
+  if (start.starts_with("LASF")) {
     if (is_compressed(file)) return std::make_unique<LazSource>(path);
     return std::make_unique<LasSource>(path);
   }
+  if (ply::begins_ply(start)) return open_ply(path);
+  if (pcd::begins_pcd(start)) return open_pcd(path);
+  if (begins_obj(start)) return open_obj(path);
+  // Last, as anything may look like it
+  if (const auto text = read_start(start)) return open_text(path, *text);
   throw file_error(path, 0,
                    fmt::format("the file begins with {}, which is no point cloud that is read: {}. Convert it, "
                                "or check the path.",
-                               describe(seen), kWhatIsRead));
+                               describe(std::as_bytes(std::span(start)).first(std::min<std::size_t>(start.size(), 8))),
+                               kWhatIsRead));
 }
 
 }  // namespace stipple

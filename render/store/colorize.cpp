@@ -46,6 +46,12 @@ std::uint32_t grey_color(double t) {
   return pack(v, v, v);
 }
 
+// Classes may come as any type; what is none has the colour of class 0.
+std::uint32_t class_color(double value) {
+  const bool known = value >= 0.0 && value < 1e9;
+  return kClassColors[(known ? static_cast<std::size_t>(value) : 0) % kClassColors.size()];
+}
+
 bool has_rgb16(const Column& column) {
   const Attribute& attribute = column.attribute;
   return attribute.name == "rgb" && attribute.type == ScalarType::u16 && attribute.components == 3;
@@ -163,8 +169,7 @@ void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, con
       break;
     }
     case ColorMap::Kind::classes:
-      color_points(
-          out, [&](std::size_t i) { return kClassColors[static_cast<std::size_t>(value(i)) % kClassColors.size()]; });
+      color_points(out, [&](std::size_t i) { return class_color(value(i)); });
       break;
     case ColorMap::Kind::grey:
       color_by_value(map, out, value, grey_color);

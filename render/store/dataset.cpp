@@ -104,6 +104,14 @@ Dataset open_dataset(const std::string& path, const std::string& color, const Da
   return dataset;
 }
 
+Dataset open_dataset(const std::vector<std::string>& paths, const std::string& color, const DatasetNeeds& needs,
+                     const MemoryLimits& limits) {
+  if (paths.size() == 1) return open_dataset(paths.front(), color, needs, limits);
+  const auto source = open_source(paths);
+  check_room(source->info(), needs.octree, limits);
+  return load_dataset(*source, color, needs.octree);
+}
+
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree) {
   Dataset dataset;
   auto start = Clock::now();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "octree/cloud/source.h"
 #include "octree/store/tree_store.h"
@@ -41,9 +42,12 @@ struct DatasetNeeds {
   bool octree = false;  // an octree, in memory where the input is none itself
 };
 
-// Opens, reads and colours `path` (see choose_color). Throws Error before it reads points that limits.main has no room
-// for.
+// Opens, reads and colours `path` (see open_source() and choose_color()). Throws Error before it reads points that
+// limits.main has no room for.
 Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs,
+                     const MemoryLimits& limits = {});
+// All of them as one cloud; an octree among several is read like a file.
+Dataset open_dataset(const std::vector<std::string>& paths, const std::string& color, const DatasetNeeds& needs,
                      const MemoryLimits& limits = {});
 
 // Reads and colours a source that is no tree; builds the octree when asked to.

@@ -6,6 +6,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "octree/build/stream/common_grid.h"
+
 namespace stipple {
 namespace {
 
@@ -65,24 +67,21 @@ void convert_column(const Column& from, Column& to) {
   }
 }
 
+// As the builder does it: half a step between two places is rounded to the same one.
 void convert_positions(const Conversion& conversion, const Buffer<glm::ivec3>& from, CanonicalBatch& result) {
-  const bool same = conversion.from.offset == conversion.to.offset && conversion.from.scale == conversion.to.scale;
-  if (same) {
+  const GridTransform transform(conversion.from, conversion.to);
+  if (transform.identity()) {
     result.positions = from;
     return;
   }
   result.positions.resize(from.size());
-  glm::dvec3 largest(0.0);  // in grid steps
+  const glm::dvec3& scale = conversion.to.scale;
+  const double noise = kNoRounding * std::min({scale.x, scale.y, scale.z});
   for (std::size_t i = 0; i < from.size(); ++i) {
-    const glm::dvec3 exact = conversion.to.grid_from_world(conversion.from.world_from_grid(from[i]));
-    for (int axis = 0; axis < 3; ++axis) {
-      result.positions[i][axis] = nearest<std::int32_t>(exact[axis]);
-      largest[axis] = std::max(largest[axis], std::abs(exact[axis] - result.positions[i][axis]));
-    }
+    result.positions[i] = transform(from[i]);
+    if (const double rounding = transform.rounding(from[i]); rounding > noise)
+      result.largest_rounding = std::max(result.largest_rounding, rounding);
   }
-  for (int axis = 0; axis < 3; ++axis)
-    if (largest[axis] > kNoRounding)
-      result.largest_rounding = std::max(result.largest_rounding, largest[axis] * conversion.to.scale[axis]);
 }
 
 }  // namespace

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "octree/core/error.h"
-#include "octree/open/open.h"
 #include "octree/store/open_tree.h"
 #include "octree/store/tree_source.h"
 #include "src/check/check_tree.h"
 #include "src/check/compare_points.h"
 #include "src/cli/cli.h"
+#include "src/command/build_inputs.h"
 #include "src/json/json.h"
 
 namespace stipple {
@@ -101,8 +101,7 @@ void print_as_text(const TreeInfo& info, const Outcome& outcome) {
 }
 
 Outcome check(const std::shared_ptr<const TreeStore>& store, const std::vector<std::string>& against) {
-  std::vector<std::unique_ptr<PointSource>> inputs;
-  for (const std::string& path : against) inputs.push_back(open_source(path));
+  const std::vector<std::unique_ptr<PointSource>> inputs = open_inputs(against);
   Outcome outcome{check_tree(*store), std::nullopt};
   // What cannot be read, or claims more points than there are, cannot be compared
   if (!inputs.empty() && !outcome.tree.defect) outcome.against = compare_points(TreeSource(store), inputs);
@@ -127,9 +126,10 @@ void add_check_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check", "Read an octree whole and hold it to what it says.");
   command->add_option("OCTREE", options->tree, "Folder of the octree, or its metadata.json.")->required();
-  command->add_option("--against", options->against,
-                      "Files or octrees whose points, together, the octree has to hold: each exactly as often, with "
-                      "the same position and attributes.");
+  command->add_option(
+      "--against", options->against,
+      "Files, folders of files, or octrees whose points, together, the octree has to hold: each exactly as often, with "
+      "the same position and attributes.");
   add_json_flag(*command, options->json);
   command->footer(
       "Checks that nodes and points are as many as stated, that the bytes of the nodes cover the file without gaps or\n"

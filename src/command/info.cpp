@@ -18,7 +18,7 @@ namespace stipple {
 namespace {
 
 struct Options {
-  std::string input;
+  std::vector<std::string> inputs;
   bool exact = false;
   bool json = false;
 };
@@ -85,6 +85,7 @@ Json source_json(const SourceInfo& info, std::string_view points_from, std::opti
           {"encoding", info.encoding},
           {"points", info.point_count},
           {"points_from", points_from},
+          {"dropped_points", info.dropped_points},
           {"file_bytes", json_or_null(bytes)},
           {"bytes_per_point", json_or_null(bytes_per_point(bytes, info.point_count))},
           {"grid", {{"scale", json_of(info.grid.scale)}, {"offset", json_of(info.grid.offset)}}},
@@ -116,9 +117,12 @@ void print_line(std::string_view label, std::string_view value) {
 
 void print_as_text(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
   print_line("path", info.path);
-  print_line("format", fmt::format("{} {}", info.format, info.version));
+  print_line("format", info.version.empty() ? info.format : fmt::format("{} {}", info.format, info.version));
   print_line("encoding", info.encoding);
   print_line("points", with_thousands(info.point_count));
+  if (info.dropped_points > 0)
+    print_line("",
+               fmt::format("{} more have no finite position and are left out", with_thousands(info.dropped_points)));
   if (bytes) print_line("file size", fmt::format("{} bytes", with_thousands(*bytes)));
   if (const auto each = bytes_per_point(bytes, info.point_count))
     print_line("", fmt::format("{:.2f} bytes a point, all included", *each));
@@ -155,7 +159,7 @@ void print_as_text(const TreeInfo& info, const Nodes& nodes) {
 }
 
 void run_on_tree(const Options& options) {
-  const auto store = open_tree(options.input);
+  const auto store = open_tree(options.inputs.front());
   TreeInfo info = store->info();
   for (const std::string& warning : info.source.warnings) warn(fmt::format("{}: {}", info.source.path, warning));
   const Nodes nodes = nodes_of(*store, options.exact);
@@ -176,7 +180,7 @@ void run_on_tree(const Options& options) {
 }
 
 void run_on_file(const Options& options) {
-  const auto source = open_source(options.input);
+  const auto source = open_source(options.inputs);
   const SourceInfo& info = source->info();
   for (const std::string& warning : info.warnings) warn(fmt::format("{}: {}", info.path, warning));
   if (options.json)
@@ -189,12 +193,11 @@ void run_on_file(const Options& options) {
 
 void add_info_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("info", "Say what a point cloud file or an octree holds, without decoding its points.");
+  CLI::App* command = app.add_subcommand("info", "Say what a point cloud file or an octree holds.");
   command
-      ->add_option(
-          "INPUT", options->input,
-          "Point cloud file, COPC among them, folder of an octree, or its metadata.json, ept.json or cloud.js.")
+      ->add_option("INPUT", options->inputs,
+                   "Point cloud files, folders of them, or an octree: a COPC file, its folder, or its metadata.json, "
+                   "ept.json or cloud.js. Several are one cloud.")
       ->required();
   command->add_flag("--exact", options->exact,
                     "Of an octree, count the points that its nodes hold, from the headers and sizes of their files, "
@@ -206,11 +209,15 @@ void add_info_command(CLI::App& app) {
       "own units), the bounds that the header states, and the attributes with their types; of an octree also its "
       "cube,\n"
       "its spacing, and how many nodes and points each level has. What the input is, is found out by its content, not\n"
-      "by its name. In JSON, what the input does not say is null, and points_from tells whether the number of points "
-      "is\n"
-      "that of the metadata, of the nodes (--exact, or metadata that state none) or of the file.\n\n"
+      "by its name. Of PLY, PCD, OBJ and text, which state neither grid nor bounds, the positions are read to find "
+      "them.\n"
+      "In JSON, what the input does not say is null, and points_from tells whether the number of points is that of "
+      "the\n"
+      "metadata, of the nodes (--exact, or metadata that state none) or of the file.\n\n"
       "Example:\n  stipple info autzen.las --json");
-  command->callback([options] { is_tree(options->input) ? run_on_tree(*options) : run_on_file(*options); });
+  command->callback([options] {
+    options->inputs.size() == 1 && is_tree(options->inputs.front()) ? run_on_tree(*options) : run_on_file(*options);
+  });
 }
 
 }  // namespace stipple

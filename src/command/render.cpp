@@ -28,7 +28,7 @@ namespace {
 constexpr const char* kReference = "reference";
 
 struct Options {
-  std::string input;
+  std::vector<std::string> inputs;
   std::string output;
   std::string mode = "unstructured";
   std::string camera;
@@ -141,7 +141,7 @@ void run(const Options& options) {
 
   // Methods that draw from an octree leave it on disk where it is there
   const bool tree = mode && needs_octree(*mode);
-  const Dataset dataset = open_dataset(options.input, options.draw.color, {.points = !tree, .octree = tree}, limits);
+  const Dataset dataset = open_dataset(options.inputs, options.draw.color, {.points = !tree, .octree = tree}, limits);
   for (const std::string& warning : dataset.info.warnings) warn(warning);
   const Camera camera = camera_of(options, dataset, static_cast<double>(size.x) / size.y);
   const View view = make_view(camera, size, near_plane(dataset.points.grid));
@@ -183,7 +183,10 @@ void run(const Options& options) {
 void add_render_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("render", "Draw one picture of a point cloud.");
-  command->add_option("INPUT", options->input, "Point cloud to draw.")->required();
+  command
+      ->add_option("INPUT", options->inputs,
+                   "Point clouds to draw: files, folders of files, octrees; together one cloud.")
+      ->required();
   command->add_option("-o,--output", options->output, "PNG file to write; settings and results travel in its text.")
       ->required();
   command

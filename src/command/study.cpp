@@ -95,7 +95,8 @@ void run(const Options& options) {
 void add_study_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("study", "Compare methods: quality against points drawn and against time.");
-  command->add_option("INPUT", options->inputs, "Point clouds, each studied by itself.")->required();
+  command->add_option("INPUT", options->inputs, "Point clouds, each studied by itself; a folder of files is one.")
+      ->required();
   command->add_option("-o,--output", options->output, "Folder to write to; it is made where it is missing.")
       ->required();
   command

@@ -108,6 +108,12 @@ TEST(Colorize, ClassesHaveColoursOfTheirOwnThatRepeatAfterNineteen) {
   for (std::size_t i = 19; i < 256; ++i) EXPECT_EQ(colors[i], colors[i - 19]);
 }
 
+TEST(Colorize, WhatIsNoClassHasTheColourOfClassZero) {
+  const auto colors = colors_by("classification", {0.0, kNan, -1.0, kInfinity, 1e30, 2.0});
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(colors[i], colors[0]);
+  EXPECT_NE(colors[5], colors[0]);
+}
+
 TEST(Colorize, EqualValuesGetOneColour) {
   const auto colors = colors_by("gps-time", std::vector<double>(100, 7.5));
   for (const std::uint32_t color : colors) EXPECT_EQ(color, colors.front());

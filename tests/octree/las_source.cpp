@@ -15,6 +15,7 @@
 
 #include "octree/cloud/cloud.h"
 #include "octree/open/open.h"
+#include "octree/read/open.h"
 #include "tests/octree/las_fixture.h"
 
 namespace stipple {
@@ -262,7 +263,7 @@ TEST(OpenSource, AMissingFileIsSaidToBeMissing) {
 
 TEST(OpenSource, AFolderIsSaidToBeOne) {
   const ScratchFolder folder;
-  EXPECT_TRUE(contains(error_of([&] { open_source(folder.path("")); }), "is a folder"));
+  EXPECT_TRUE(contains(error_of([&] { open_file(folder.path("")); }), "is a folder"));
 }
 
 TEST(OpenSource, AnEmptyFileIsSaidToBeEmpty) {
@@ -283,7 +284,7 @@ TEST(OpenSource, AnUnknownFileIsNamedWithItsFirstBytesAndWhatIsRead) {
   const std::string message = error_of([&] { open_source(folder.write("picture.las", bytes)); });
   EXPECT_TRUE(contains(message, folder.path("picture.las")));
   EXPECT_TRUE(contains(message, "50 4e 47 00 89 20 61 6e (PNG.. an)"));
-  EXPECT_TRUE(contains(message, "uncompressed LAS 1.0-1.5, point formats 0-10"));
+  EXPECT_TRUE(contains(message, "uncompressed LAS 1.0-1.5 with point formats 0-10"));
 }
 
 }  // namespace

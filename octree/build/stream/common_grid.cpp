@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "octree/cloud/grid_fit.h"
+
 namespace stipple {
 namespace {
 
@@ -13,7 +15,6 @@ constexpr double kNoise = 1e-4;
 constexpr double kFactorNoise = 1e-9;
 // A common divisor so much finer than the finest scale is noise that was taken for a number.
 constexpr double kFinestDivisor = 1e-3;
-constexpr double kSteps = 4294967295.0;  // between the lowest and the highest int32
 
 bool near_whole(double value) {
   return std::abs(value - std::round(value)) < kNoise;
@@ -47,13 +48,8 @@ double exact_scale(std::span<const GriddedBox> sources, int axis) {
   return scale;
 }
 
-struct Range {
-  double min = std::numeric_limits<double>::infinity();
-  double max = -std::numeric_limits<double>::infinity();
-};
-
-Range world_range(std::span<const GriddedBox> sources, int axis) {
-  Range range;
+AxisRange world_range(std::span<const GriddedBox> sources, int axis) {
+  AxisRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const GriddedBox& source : sources) {
     if (source.box.empty()) continue;
     const WorldBox box = world_box(source.grid, source.box);
@@ -62,23 +58,6 @@ Range world_range(std::span<const GriddedBox> sources, int axis) {
   }
   if (range.min > range.max) range = {sources.front().grid.offset[axis], sources.front().grid.offset[axis]};
   return range;
-}
-
-// Multiples of the finest scale by 1, 2, 5, 10, ... until the range fits.
-double fitting_scale(double scale, double extent) {
-  static constexpr double kFactors[] = {1.0, 2.0, 5.0};
-  for (double decade = 1.0;; decade *= 10.0)
-    for (const double factor : kFactors)
-      if (extent / (scale * decade * factor) <= kSteps - 2.0) return scale * decade * factor;
-}
-
-// Keeps the offset where positions fit, else moves it by whole steps into the middle of the range.
-double fitting_offset(double offset, double scale, const Range& range) {
-  const double low = std::floor((range.min - offset) / scale);
-  const double high = std::ceil((range.max - offset) / scale);
-  if (low >= std::numeric_limits<std::int32_t>::min() && high <= std::numeric_limits<std::int32_t>::max())
-    return offset;
-  return offset + scale * std::round(low + (high - low) * 0.5);
 }
 
 }  // namespace
@@ -92,9 +71,9 @@ Grid common_grid(std::span<const GriddedBox> sources) {
     return first;
   Grid grid;
   for (int axis = 0; axis < 3; ++axis) {
-    const Range range = world_range(sources, axis);
+    const AxisRange range = world_range(sources, axis);
     double scale = exact_scale(sources, axis);
-    if (scale == 0.0 || (range.max - range.min) / scale > kSteps - 2.0) {
+    if (scale == 0.0 || (range.max - range.min) / scale > kGridSteps) {
       double finest = first.scale[axis];
       for (const GriddedBox& source : sources) finest = std::min(finest, source.grid.scale[axis]);
       scale = fitting_scale(finest, range.max - range.min);

@@ -26,6 +26,8 @@ class GridTransform {
   GridTransform(const Grid& from, const Grid& to);
 
   bool identity() const { return identity_; }
+  // Whether every position has its place on the target grid.
+  bool exact() const { return whole_[0] && whole_[1] && whole_[2]; }
 
   // The nearest position on the target grid; clamped to int32.
   glm::ivec3 operator()(const glm::ivec3& position) const;

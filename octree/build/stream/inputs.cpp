@@ -85,21 +85,6 @@ GridBox transformed(const GridTransform& transform, const GridBox& box) {
 
 }  // namespace
 
-Schema merged_schema(std::span<const std::unique_ptr<PointSource>> sources) {
-  Schema schema;
-  for (const auto& source : sources)
-    for (const Attribute& attribute : source->info().schema) {
-      const auto known = find_attribute(schema, attribute.name);
-      if (!known) {
-        schema.push_back(attribute);
-      } else if (schema[*known] != attribute) {
-        Attribute& common = schema[*known];
-        common = {common.name, ScalarType::f64, std::max(common.components, attribute.components), 1.0, 0.0};
-      }
-    }
-  return schema;
-}
-
 Inputs::Inputs(std::span<const std::unique_ptr<PointSource>> sources, BuildMonitor& monitor)
     : monitor_(monitor), schema_(merged_schema(sources)), record_bytes_(stipple::record_bytes(schema_)) {
   for (const auto& source : sources) {

@@ -10,16 +10,13 @@
 #include "octree/build/stream/common_grid.h"
 #include "octree/build/stream/monitor.h"
 #include "octree/build/stream/record.h"
+#include "octree/cloud/merged_schema.h"
 #include "octree/cloud/source.h"
 
 namespace stipple {
 
 using PositionConsumer = std::function<void(std::span<const glm::ivec3>)>;
 using RecordConsumer = std::function<void(std::span<const std::byte>)>;
-
-// The sources' attributes under one name become one. Where they disagree about its type, scale or offset, all values
-// are stored as double, scale and offset applied: exact for integers up to 53 bits. A source that lacks it gives zeros.
-Schema merged_schema(std::span<const std::unique_ptr<PointSource>> sources);
 
 class Inputs {
  public:

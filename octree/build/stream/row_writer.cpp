@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "octree/build/stream/record.h"
+#include "octree/cloud/merged_schema.h"
 
 namespace stipple {
 namespace {
@@ -34,26 +35,6 @@ void scatter(std::size_t size, const std::byte* in, std::size_t count, std::byte
     default:
       for (std::size_t i = 0; i < count; ++i) std::memcpy(out + i * stride, in + i * size, size);
   }
-}
-
-// The column's values as doubles of the attribute that files with different types share; components it lacks are zero.
-Column converted(const Column& column, const Attribute& common) {
-  Column result{common, {}};
-  result.resize(column.points());
-  const std::span<double> values = result.as<double>();
-  const auto components = static_cast<std::size_t>(common.components);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto c = static_cast<int>(i % components);
-    values[i] = c < column.attribute.components ? value_at(column, i / components, c) : 0.0;
-  }
-  return result;
-}
-
-Column zeros(const Attribute& attribute, std::size_t points) {
-  Column column{attribute, {}};
-  column.resize(points);
-  std::ranges::fill(column.bytes, std::byte{0});
-  return column;
 }
 
 }  // namespace
