@@ -62,8 +62,8 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
 
 std::unique_ptr<Method> make_method(Mode mode, const Dataset& dataset, const MethodOptions& options) {
   if (mode == Mode::hierarchical && dataset.tree)
-    return std::make_unique<Hierarchical>(std::make_unique<TreeSupply>(dataset.tree, dataset.colors, dataset.bytes_to_load),
-                                          options.largest_budget);
+    return std::make_unique<Hierarchical>(
+        std::make_unique<TreeSupply>(dataset.tree, dataset.colors, dataset.bytes_to_load), options.largest_budget);
   return make_method(mode, dataset.points, dataset.octree ? &*dataset.octree : nullptr, options);
 }
 
