@@ -10,7 +10,8 @@
 #include <string_view>
 
 #include "octree/core/error.h"
-#include "octree/read/open.h"
+#include "octree/open/open.h"
+#include "octree/store/open_tree.h"
 #include "src/cli/cli.h"
 
 namespace stipple {
@@ -30,7 +31,7 @@ bool is_cloud_file(const fs::directory_entry& entry) {
 }
 
 std::vector<std::string> files_of(const std::string& path) {
-  if (!fs::is_directory(path)) return {path};
+  if (!fs::is_directory(path) || is_tree(path)) return {path};
   std::vector<std::string> files;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(path, error))
@@ -56,7 +57,7 @@ std::vector<std::unique_ptr<PointSource>> open_inputs(const std::vector<std::str
   std::vector<std::unique_ptr<PointSource>> sources;
   for (const std::string& path : paths)
     for (const std::string& file : files_of(path)) {
-      sources.push_back(open_file(file));
+      sources.push_back(open_source(file));
       for (const std::string& warning : sources.back()->info().warnings) warn(fmt::format("{}: {}", file, warning));
     }
   return sources;

@@ -61,6 +61,18 @@ TEST(NodeFilesCommands, InfoExactOfATreeThatLacksANodeIsExitCodeOne) {
   EXPECT_TRUE(contains(outcome.err, "1-0-1-1.bin: there is no such file, and the 60 points of node 1-0-1-1"));
 }
 
+TEST(NodeFilesCommands, BuildTakesThem) {
+  const ScratchFolder folder, ept, potree;
+  for (const std::string& tree : {EptFiles().write(ept), Potree1Files().write(potree)}) {
+    const std::string built = folder.path("built-" + std::to_string(tree == ept.path("")));
+    const Outcome build = run_stipple(folder, "build " + tree + " -o " + built);
+    ASSERT_EQ(build.code, 0) << build.err;
+    const Outcome check = run_stipple(folder, "check " + built + " --against " + tree);
+    EXPECT_EQ(check.code, 0) << check.err;
+    EXPECT_TRUE(contains(check.out, "the same 360 points as the inputs; largest rounding 0"));
+  }
+}
+
 TEST(NodeFilesCommands, RenderDrawsThemFromDisk) {
   const ScratchFolder folder, ept, potree;
   for (const std::string& tree : {EptFiles().write(ept), Potree1Files().write(potree)}) {
