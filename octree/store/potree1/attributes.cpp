@@ -76,11 +76,18 @@ Stored parse_name(const JsonValue& json) {
   return *found;
 }
 
-// 1.8: {"name": "gps-time", "size": 8, "elements": 1, "elementSize": 8, "type": "double"}.
+// 1.8: {"name": "gps-time", "size": 8, "elements": 1, "elementSize": 8, "type": "double"}. Where there is no type, the
+// name tells; bytes of a name that does not stay bytes.
 Stored parse_object(const JsonValue& json) {
   Stored stored;
   stored.name = capitals(json["name"].text());
   stored.bytes = json["size"].whole(1, kMaxRowBytes);
+  if (!json.find("type")) {
+    const auto named = std::ranges::find(kNamed, stored.name, &Stored::name);
+    if (named != std::end(kNamed) && named->bytes == stored.bytes) return *named;
+    stored.elements = stored.bytes;
+    return stored;
+  }
   stored.elements = json["elements"].whole(1, kMaxComponents);
   stored.type = json["type"].scalar_type();
   if (stored.bytes != stored.elements * size_of(stored.type))
