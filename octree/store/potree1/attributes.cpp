@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint64_t kMaxComponents = 1 << 16;
 constexpr std::size_t kMaxRowBytes = 1 << 20;
+constexpr std::size_t kMaxAttributes = 1000;
 
 // An attribute as the row has it.
 struct Stored {
@@ -119,7 +120,10 @@ RowField field_of(const Stored& stored, const std::string& own_name, std::size_t
 
 void parse_attributes(const JsonValue& json, Metadata& metadata) {
   bool has_position = false;
-  for (const JsonValue& element : json.elements()) {
+  const std::vector<JsonValue> elements = json.elements();
+  if (elements.size() > kMaxAttributes)
+    throw json.error(fmt::format("{} attributes, and at most {} are read.", elements.size(), kMaxAttributes));
+  for (const JsonValue& element : elements) {
     const bool object = element.is_object();
     const Stored stored = object ? parse_object(element) : parse_name(element);
     const std::size_t place = metadata.rows.bytes;
