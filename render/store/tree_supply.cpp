@@ -19,24 +19,11 @@ constexpr std::uint32_t kLargestRequest = 65536;
 // How long collect() waits: a picture that stands still for a frame is better than a busy one.
 constexpr std::chrono::milliseconds kPatience{20};
 
-// The cell, and what points may be outside it.
-WorldBox generous_cell(const TreeInfo& info, const StoredNode& node) {
-  WorldBox box = cell_of(info.cube, node);
-  box.min -= info.cell_margin;
-  box.max += info.cell_margin;
-  return box;
-}
-
 }  // namespace
 
 TreeSupply::TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before)
-    : store_(std::move(store)), colors_(std::move(colors)), bytes_before_(bytes_before) {
+    : store_(std::move(store)), colors_(std::move(colors)), bytes_before_(bytes_before), tree_(store_) {
   if (const auto index = find_attribute(store_->info().source.schema, colors_.attribute)) attributes_.push_back(*index);
-  const TreeStore::HierarchyPiece first = store_->root_piece();
-  if (!first.nodes.empty()) {
-    nodes_.push_back({first.nodes.front()});
-    take_piece(0, first);
-  }
   for (std::size_t i = 0; i < kThreads; ++i)
     threads_.emplace_back([this, looks_first = i % 2 == 0] { work(looks_first); });
 }
@@ -50,35 +37,6 @@ TreeSupply::~TreeSupply() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-// The piece begins with node `index`.
-void TreeSupply::take_piece(std::uint32_t index, const TreeStore::HierarchyPiece& piece) {
-  const auto base = static_cast<std::uint32_t>(nodes_.size());
-  const auto index_here = [&](std::uint32_t node) {
-    if (node == StoredNode::kNone) return node;
-    return node == 0 ? index : base + node - 1;
-  };
-  for (std::size_t i = 0; i < piece.nodes.size(); ++i) {
-    Node node{piece.nodes[i]};
-    node.stored.parent = i == 0 ? nodes_[index].stored.parent : index_here(node.stored.parent);
-    for (std::uint32_t& child : node.stored.children) child = index_here(child);
-    if (!store_->must_locate()) node.knowledge = Knowledge::known;
-    if (i == 0)
-      nodes_[index] = node;
-    else
-      nodes_.push_back(node);
-  }
-  for (const auto& where : piece.continued) {
-    nodes_[index_here(where.node)].knowledge = Knowledge::continued;
-    nodes_[index_here(where.node)].where = where;
-  }
-}
-
-std::optional<double> TreeSupply::distance_if_seen(std::uint32_t node) const {
-  const WorldBox box = generous_cell(store_->info(), nodes_[node].stored);
-  if (!may_see(frustum_, box)) return std::nullopt;
-  return nearest_distance(view_.eye, box);
-}
-
 // What was asked for and not begun for the last view.
 void TreeSupply::forget_queue() {
   const std::lock_guard lock(mutex_);
@@ -88,7 +46,7 @@ void TreeSupply::forget_queue() {
   under_way_ = 0;
   looking_up_ -= lookups_.size();
   asked_ -= lookups_.size();
-  for (const Lookup& lookup : lookups_) nodes_[lookup.index].asked = false;
+  for (const KnownTree::Lookup& lookup : lookups_) tree_.forget(lookup);
   lookups_.clear();
 }
 
@@ -98,86 +56,61 @@ std::vector<VisibleCluster> TreeSupply::visible(const View& view) {
   frustum_ = frustum_of(view);
   parts_.clear();
   visible_nodes_ = 0;
-  if (nodes_.empty()) return {};
-  return walk({0});
-}
-
-// The clusters of known nodes at and below `roots`, front to back; what is not known yet is asked for.
-std::vector<VisibleCluster> TreeSupply::walk(std::vector<std::uint32_t> roots) {
-  std::vector<Sight> seen, unknown;
-  while (!roots.empty()) {
-    const std::uint32_t index = roots.back();
-    roots.pop_back();
-    const auto distance = distance_if_seen(index);
-    if (!distance) continue;
-    const Node& node = nodes_[index];
-    if (node.knowledge == Knowledge::known)
-      seen.push_back({*distance, index});
-    else if (!node.asked)
-      unknown.push_back({*distance, index});
-    if (node.knowledge == Knowledge::continued) continue;
-    for (const std::uint32_t child : node.stored.children)
-      if (child != StoredNode::kNone) roots.push_back(child);
-  }
-  std::ranges::sort(unknown);
-  ask(unknown);
-  std::ranges::sort(seen);
+  if (tree_.empty()) return {};
+  const KnownTree::InSight in_sight = tree_.look(frustum_, {0});
+  ask(in_sight.unknown);
   std::vector<VisibleCluster> clusters;
-  for (const Sight& sight : seen) append_clusters(sight, clusters);
+  append_clusters(in_sight.known, clusters);
   return clusters;
 }
 
-void TreeSupply::ask(const std::vector<Sight>& unknown) {
+void TreeSupply::ask(const std::vector<KnownTree::Sight>& unknown) {
   if (unknown.empty()) return;
   const std::lock_guard lock(mutex_);
-  for (const Sight& sight : unknown) {
-    nodes_[sight.node].asked = true;
-    lookups_.push_back({sight.node, nodes_[sight.node]});
-  }
+  for (const KnownTree::Sight& sight : unknown) lookups_.push_back(tree_.ask(sight.node));
   asked_ += unknown.size();
   looking_up_ += unknown.size();
   work_ready_.notify_all();
 }
 
 std::vector<VisibleCluster> TreeSupply::discovered() {
-  std::deque<Lookup> found;
+  std::deque<KnownTree::Lookup> found;
   {
     const std::lock_guard lock(mutex_);
     found.swap(found_);
   }
-  std::vector<std::uint32_t> roots;
-  std::vector<Sight> seen;
-  for (Lookup& lookup : found) {
+  std::vector<std::uint32_t> continued;
+  std::vector<KnownTree::Sight> seen;
+  std::exception_ptr failure;
+  for (KnownTree::Lookup& lookup : found) {
     --asked_;
-    nodes_[lookup.index].asked = false;
-    const auto distance = distance_if_seen(lookup.index);
-    if (lookup.failure) {
-      // What the current view does not see may fail again when one does
-      if (distance) std::rethrow_exception(lookup.failure);
-    } else if (lookup.node.knowledge == Knowledge::continued) {
-      ++pieces_read_;
-      take_piece(lookup.index, lookup.piece);
-      roots.push_back(lookup.index);
-    } else {
-      Node& node = nodes_[lookup.index];
-      node.stored.points = lookup.node.stored.points;
-      node.stored.byte_offset = lookup.node.stored.byte_offset;
-      node.stored.byte_size = lookup.node.stored.byte_size;
-      node.knowledge = Knowledge::known;
-      if (lookup.details) details_[lookup.index] = std::move(*lookup.details);
-      if (distance) seen.push_back({*distance, lookup.index});
-    }
+    tree_.take(lookup);
+    const auto distance = tree_.distance_if_seen(frustum_, lookup.index);
+    if (!distance) continue;  // of a failure, too, one that sees the node may learn: it will ask again
+    if (lookup.failure)
+      failure = lookup.failure;
+    else if (lookup.node.knowledge == KnownTree::Knowledge::continued)
+      continued.push_back(lookup.index);
+    else
+      seen.push_back({*distance, lookup.index});
   }
-  std::vector<VisibleCluster> clusters = walk(std::move(roots));
+  if (failure) std::rethrow_exception(failure);
+  const KnownTree::InSight below = tree_.look(frustum_, std::move(continued));
+  ask(below.unknown);
+  seen.insert(seen.end(), below.known.begin(), below.known.end());
   std::ranges::sort(seen);
-  for (const Sight& sight : seen) append_clusters(sight, clusters);
-  std::ranges::stable_sort(clusters, {}, &VisibleCluster::distance);
+  std::vector<VisibleCluster> clusters;
+  append_clusters(seen, clusters);
   return clusters;
 }
 
-void TreeSupply::append_clusters(const Sight& sight, std::vector<VisibleCluster>& clusters) {
+void TreeSupply::append_clusters(const std::vector<KnownTree::Sight>& seen, std::vector<VisibleCluster>& clusters) {
+  for (const KnownTree::Sight& sight : seen) append_clusters(sight, clusters);
+}
+
+void TreeSupply::append_clusters(const KnownTree::Sight& sight, std::vector<VisibleCluster>& clusters) {
   const TreeInfo& info = store_->info();
-  const StoredNode& node = nodes_[sight.node].stored;
+  const StoredNode& node = tree_.node(sight.node);
   if (node.points == 0) return;
   ++visible_nodes_;
   first_id_of(node);  // throws when it has more points than a count of 32 bits holds
@@ -190,13 +123,13 @@ void TreeSupply::append_clusters(const Sight& sight, std::vector<VisibleCluster>
     append(0, count, count);  // to be read once, in one go
     return;
   }
-  const auto details = details_.find(sight.node);
-  if (details == details_.end()) {
+  const NodeDetails* details = tree_.details(sight.node);
+  if (!details) {
     const WorldBox box = generous_cell(info, node);
     append(0, count, uniform_pixels(box, count, view_.forward, nearest_pixel_size(view_, box)));
     return;
   }
-  for (const Cluster& cluster : details->second.clusters) {
+  for (const Cluster& cluster : details->clusters) {
     const WorldBox box = world_box(info.source.grid, cluster.box);
     if (!may_see(frustum_, box)) continue;
     append(cluster.first, cluster.count,
@@ -209,7 +142,7 @@ void TreeSupply::request(std::uint32_t handle, std::uint32_t first, std::uint32_
   const Part& part = parts_[handle];
   const std::lock_guard lock(mutex_);
   for (std::uint32_t at = 0; at < count; at += largest) {
-    queue_.push_back({nodes_[part.node].stored, part.first + first + at, std::min(largest, count - at), view_number_});
+    queue_.push_back({tree_.node(part.node), part.first + first + at, std::min(largest, count - at), view_number_});
     ++under_way_;
   }
   work_ready_.notify_all();
@@ -250,16 +183,6 @@ TreeSupply::Arrival TreeSupply::read(const Request& request) const {
   return arrival;
 }
 
-void TreeSupply::look_up(Lookup& lookup) const {
-  StoredNode& node = lookup.node.stored;
-  if (lookup.node.knowledge == Knowledge::continued) {
-    lookup.piece = store_->read_piece(lookup.node.where, node);
-    return;
-  }
-  node = store_->locate(node);
-  if (node.points > 0 && store_->info().has_details) lookup.details = store_->read_details(node);
-}
-
 // Half of the threads look for what is in sight before they read points: neither keeps the other waiting.
 void TreeSupply::work(bool looks_first) {
   std::unique_lock lock(mutex_);
@@ -274,14 +197,10 @@ void TreeSupply::work(bool looks_first) {
 }
 
 void TreeSupply::do_lookup(std::unique_lock<std::mutex>& lock) {
-  Lookup lookup = std::move(lookups_.front());
+  KnownTree::Lookup lookup = std::move(lookups_.front());
   lookups_.pop_front();
   lock.unlock();
-  try {
-    look_up(lookup);
-  } catch (...) {
-    lookup.failure = std::current_exception();
-  }
+  tree_.run(lookup);
   lock.lock();
   --looking_up_;
   found_.push_back(std::move(lookup));

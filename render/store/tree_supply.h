@@ -7,14 +7,13 @@
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <thread>
-#include <unordered_map>
 #include <vector>
 
 #include "octree/select/frustum.h"
 #include "octree/store/tree_store.h"
 #include "render/store/colorize.h"
+#include "render/store/known_tree.h"
 #include "render/store/point_supply.h"
 
 namespace stipple {
@@ -38,20 +37,9 @@ class TreeSupply final : public PointSupply {
   std::uint64_t read_ahead(std::uint32_t budget) const override { return 3ull * budget; }
   std::uint64_t bytes_read() const override { return store_->bytes_read() - bytes_before_; }
   // Pieces of the hierarchy that were read after the first.
-  std::uint64_t pieces_read() const { return pieces_read_; }
+  std::uint64_t pieces_read() const { return tree_.pieces(); }
 
  private:
-  enum class Knowledge {
-    continued,  // another piece of the hierarchy begins with this node
-    listed,     // the hierarchy is known, the node not located
-    known,
-  };
-  struct Node {
-    StoredNode stored;
-    Knowledge knowledge = Knowledge::listed;
-    bool asked = false;  // a lookup is queued or under way
-    TreeStore::HierarchyPiece::Continuation where{};
-  };
   // A cluster of a node in sight; the whole node where the tree knows no clusters.
   struct Part {
     std::uint32_t node;
@@ -68,42 +56,22 @@ class TreeSupply final : public PointSupply {
     std::uint32_t first_id = 0;
     std::uint32_t given = 0;  // of them, by collect()
   };
-  // What is to be found out of a node, and what was.
-  struct Lookup {
-    std::uint32_t index;
-    Node node;
-    TreeStore::HierarchyPiece piece{};
-    std::optional<NodeDetails> details{};
-    std::exception_ptr failure{};
-  };
-  // What a view may see, as found on a walk through the hierarchy.
-  struct Sight {
-    double distance;
-    std::uint32_t node;
-    auto operator<=>(const Sight&) const = default;
-  };
-
-  std::optional<double> distance_if_seen(std::uint32_t node) const;
-  std::vector<VisibleCluster> walk(std::vector<std::uint32_t> roots);
-  void ask(const std::vector<Sight>& unknown);
-  void append_clusters(const Sight& sight, std::vector<VisibleCluster>& clusters);
-  void take_piece(std::uint32_t index, const TreeStore::HierarchyPiece& piece);
+  void ask(const std::vector<KnownTree::Sight>& unknown);
+  void append_clusters(const std::vector<KnownTree::Sight>& seen, std::vector<VisibleCluster>& clusters);
+  void append_clusters(const KnownTree::Sight& sight, std::vector<VisibleCluster>& clusters);
   void forget_queue();
   void work(bool looks_first);
   void do_lookup(std::unique_lock<std::mutex>& lock);
   void do_request(std::unique_lock<std::mutex>& lock);
-  void look_up(Lookup& lookup) const;
   Arrival read(const Request& request) const;
 
   std::shared_ptr<const TreeStore> store_;
   ColorMap colors_;
   std::uint64_t bytes_before_;
   std::vector<std::size_t> attributes_;  // that the colour needs
-  std::vector<Node> nodes_;              // that views came to, the root first
-  std::size_t asked_ = 0;                // of them
-  std::uint64_t pieces_read_ = 0;
-  std::unordered_map<std::uint32_t, NodeDetails> details_;  // of known nodes
-  View view_{};                                             // the current one
+  KnownTree tree_;
+  std::size_t asked_ = 0;  // lookups that discovered() has not seen yet
+  View view_{};            // the current one
   Frustum frustum_{};
   std::vector<Part> parts_;  // of this view; handles are indices
   std::size_t visible_nodes_ = 0;
@@ -113,8 +81,8 @@ class TreeSupply final : public PointSupply {
   mutable std::mutex mutex_;
   std::condition_variable work_ready_;
   std::condition_variable arrived_;
-  std::deque<Lookup> lookups_;
-  std::deque<Lookup> found_;
+  std::deque<KnownTree::Lookup> lookups_;
+  std::deque<KnownTree::Lookup> found_;
   std::deque<Request> queue_;
   std::deque<Arrival> arrivals_;
   std::exception_ptr failure_;

@@ -103,7 +103,7 @@ void add_build_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("build", "Build an octree on disk (Potree 2.0) from point clouds of any size.");
-  command->add_option("INPUT", options->inputs, "Point cloud files, or folders of such files.")->required();
+  command->add_option("INPUT", options->inputs, "Point cloud files, octrees, or folders of files.")->required();
   command->add_option("-o,--output", options->output, "Folder of the tree; it appears when the tree is complete.")
       ->required();
   command

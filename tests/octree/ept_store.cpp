@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "octree/store/tree_source.h"
@@ -234,6 +235,13 @@ TEST(EptStore, WhatIsWrongInAPageIsNamed) {
       {"text", [](Json& j) { j["1-0-0-x"] = 5; }, "is no node of this page"},
       {"outside", [](Json& j) { j["1-0-0-2"] = 5; }, "is no node of this page"},
       {"deep", [](Json& j) { j["32-0-0-0"] = 5; }, "is no node of this page"},
+      {"list",
+       [](Json& j) {
+         j["0-0-0-0"] = {1, 2};
+       },
+       "0-0-0-0: a list was found, and a whole number"},
+      {"many", [](Json& j) { j["0-0-0-0"] = 1ull << 60; }, "0-0-0-0: 1152921504606846976 was found"},
+      {"no object", [](Json& j) { j = 5; }, "the page: 5 was found, and an object was expected"},
       {"count", [](Json& j) { j["0-0-0-0"] = -2; }, "0-0-0-0: -2 was found, and a whole number"},
       {"itself", [](Json& j) { j["0-0-0-0"] = -1; }, "0-0-0-0: the page refers to itself"},
   };
@@ -246,6 +254,16 @@ TEST(EptStore, WhatIsWrongInAPageIsNamed) {
     write_bytes(folder.path("ept-hierarchy/0-0-0-0.json"), TreeFiles::bytes_of(page));
     EXPECT_TRUE(contains(error_of([&] { open_tree(folder.path("")); }), wrong.message)) << wrong.what;
   }
+}
+
+TEST(EptStore, APageOfManyNodesIsReadInNoTime) {
+  std::string text = "{\"0-0-0-0\": 1";
+  for (int x = 0; x < 300; ++x)
+    for (int y = 0; y < 300; ++y) text += ", \"9-" + std::to_string(x) + "-" + std::to_string(y) + "-0\": 7";
+  const auto start = std::chrono::steady_clock::now();
+  const auto piece = ept::parse_page(text + "}", StoredNode{}, "page");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_GT(piece.nodes.size(), 90'000u);
 }
 
 TEST(EptStore, APageHasToBeginWithItsNode) {

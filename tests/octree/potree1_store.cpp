@@ -124,6 +124,21 @@ TEST(Potree1Store, TimesComeAsTheyAre) {
     EXPECT_EQ(value_at(*cloud.find("gps-time"), i), 0.25 * value_at(*cloud.find("intensity"), i));
 }
 
+TEST(Potree1Store, AttributesWithoutATypeAreKnownByName) {
+  const ScratchFolder folder;
+  Potree1Files files;
+  files.version = "1.8";
+  files.write(folder);
+  Json metadata = files.metadata();
+  for (Json& attribute : metadata["pointAttributes"]) attribute.erase("type");
+  metadata["pointAttributes"][4]["name"] = "odd";
+  write_bytes(folder.path("cloud.js"), TreeFiles::bytes_of(metadata));
+  const Cloud cloud = load_cloud(*open_source(folder.path("")), kAttributes);
+  EXPECT_EQ(sorted(points_in_steps(cloud)), sorted(files.points()));
+  const Schema schema = open_tree(folder.path(""))->info().source.schema;
+  EXPECT_EQ(schema.at(*find_attribute(schema, "odd")).components, 8);
+}
+
 TEST(Potree1Store, CornersOffTheGridMakeItFiner) {
   const WorldBox cube{{0, 0, 0}, {1738.6, 1738.6, 1738.6}};
   // 1,738,600 steps are 8 times an odd number
@@ -151,10 +166,19 @@ TEST(Potree1Store, WhatIsWrongInTheMetadataIsNamed) {
       {"format", [](Json& j) { j["pointAttributes"] = "PLY"; }, "pointAttributes: \"PLY\" was found, and LAS, LAZ"},
       {"position", [](Json& j) { j["pointAttributes"].erase(0); }, "POSITION_CARTESIAN was expected"},
       {"twice", [](Json& j) { j["pointAttributes"][3] = "INTENSITY"; }, "\"intensity\" was there already"},
-      {"step", [](Json& j) { j.erase("hierarchyStepSize"); }, "there is no \"hierarchyStepSize\""},
-      {"list", [](Json& j) { j["hierarchy"] = Json::parse(R"([["r", 5], ["q1", 6]])"); },
+      {"step", [](Json& j) { j.erase("hierarchyStepSize"); }, "there is no \"hierarchy\""},
+      {"list",
+       [](Json& j) {
+         j.erase("hierarchyStepSize");
+         j["hierarchy"] = Json::parse(R"([["r", 5], ["q1", 6]])");
+       },
        "\"q1\" was found, and r with digits 0 to 7"},
-      {"digit", [](Json& j) { j["hierarchy"] = Json::parse(R"([["r", 5], ["r8", 6]])"); }, "\"r8\" was found"},
+      {"digit",
+       [](Json& j) {
+         j.erase("hierarchyStepSize");
+         j["hierarchy"] = Json::parse(R"([["r", 5], ["r8", 6]])");
+       },
+       "\"r8\" was found"},
   };
   for (const Wrong& wrong : wrongs) {
     const ScratchFolder folder;

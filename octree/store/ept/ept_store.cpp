@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <system_error>
 
 #include "octree/core/error.h"
@@ -58,6 +60,16 @@ TreeInfo describe(const ept::Metadata& metadata, const std::string& path) {
   return info;
 }
 
+// Writers pick the cell before they round the point: to the grid, or to a float.
+glm::dvec3 cell_margin(const ept::Metadata& metadata, const Grid& grid) {
+  glm::dvec3 margin = grid.scale;
+  for (int axis = 0; axis < 3; ++axis)
+    if (metadata.axes[static_cast<std::size_t>(axis)].type == ScalarType::f32)
+      margin[axis] += std::numeric_limits<float>::epsilon() *
+                      std::max(std::abs(metadata.cube.min[axis]), std::abs(metadata.cube.max[axis]));
+  return margin;
+}
+
 std::string points_of(const StoredNode& node) {
   return fmt::format("the {} points of node {}", node.points, ept::key_of(node));
 }
@@ -71,8 +83,7 @@ EptStore::EptStore(const std::string& path)
   count_read(fs::file_size(metadata_path(folder_)));
   root_piece_ = read_page(StoredNode{});
   if (metadata_.data_type == DataType::laszip) take_las_schema();
-  // Entwine picks the cell before it rounds the point to the grid
-  info_.cell_margin = info_.source.grid.scale;
+  info_.cell_margin = cell_margin(metadata_, info_.source.grid);
 }
 
 // The first node with points tells for all; read_las_node() holds the others to it.

@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "octree/core/error.h"
 #include "octree/store/ept/format.h"
-#include "octree/store/json_value.h"
 
 namespace stipple::ept {
 namespace {
@@ -52,25 +55,75 @@ Key parent_of(const Key& key) {
 // What the page says of its nodes; nodes that it only implies hold no points.
 using Counts = std::map<Key, std::int64_t>;
 
-Counts parse_counts(const nlohmann::ordered_json& document, const Key& first, const std::string& path) {
-  const JsonValue json(document, path);
-  Counts counts;
-  if (!document.is_object()) throw json.error("an object with a number of points for every node was expected.");
-  for (const auto& [name, value] : document.items()) {
-    const auto key = parse_key(name);
-    if (!key || !is_below(*key, first))
-      throw json.error(
-          fmt::format("\"{}\" is no node of this page: level, x, y and z of a node at or below "
-                      "{}-{}-{}-{} were expected. The file is damaged; copy it again.",
-                      name, first[0], first[1], first[2], first[3]));
-    if (value.is_number_integer() && value == kElsewhere)
-      counts[*key] = kElsewhere;
-    else
-      counts[*key] = static_cast<std::int64_t>(json[name].whole(0, kMaxNodePoints));
+// Reads a page as it comes: a document that keeps the order of its keys takes time with the square of their number.
+class PageReader : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  PageReader(const Key& first, const std::string& path) : first_(first), path_(path) {}
+
+  Counts take() { return std::move(counts_); }
+
+  bool start_object(std::size_t) override { return std::exchange(begun_, true) ? wrong("an object") : true; }
+  bool end_object() override { return true; }
+  bool start_array(std::size_t) override { return wrong("a list"); }
+  bool end_array() override { return true; }
+  bool null() override { return wrong("null"); }
+  bool boolean(bool) override { return wrong("a truth value"); }
+  bool string(std::string&) override { return wrong("a text"); }
+  bool binary(binary_t&) override { return wrong("bytes"); }
+  bool number_float(double, const std::string& text) override { return wrong(text); }
+  bool number_integer(std::int64_t value) override { return take_number(value); }
+  bool number_unsigned(std::uint64_t value) override {
+    if (value > kMaxNodePoints) return wrong(fmt::format("{}", value));
+    return take_number(static_cast<std::int64_t>(value));
   }
+
+  bool key(std::string& name) override {
+    const auto key = parse_key(name);
+    if (!key || !is_below(*key, first_))
+      throw Error(
+          fmt::format("{}: \"{}\" is no node of this page: level, x, y and z of a node at or below "
+                      "{}-{}-{}-{} were expected. The file is damaged; copy it again.",
+                      path_, name, first_[0], first_[1], first_[2], first_[3]));
+    key_ = *key;
+    name_ = name;
+    return true;
+  }
+
+  bool parse_error(std::size_t place, const std::string&, const nlohmann::json::exception&) override {
+    // The library counts bytes from 1
+    throw file_error(path_, place - std::min<std::size_t>(place, 1),
+                     "this is no JSON any more. The file was cut off or damaged; copy it again.");
+  }
+
+ private:
+  bool take_number(std::int64_t value) {
+    if (!begun_ || value < kElsewhere) return wrong(fmt::format("{}", value));
+    counts_[key_] = value;
+    return true;
+  }
+  bool wrong(const std::string& found) const {
+    throw Error(fmt::format("{}: {}: {} was found, and {} was expected. The file is damaged; copy it again.", path_,
+                            name_, found, begun_ ? "a whole number of points, or -1," : "an object"));
+  }
+
+  const Key& first_;
+  const std::string& path_;
+  Counts counts_;
+  Key key_{};
+  std::string name_ = "the page";
+  bool begun_ = false;
+};
+
+Counts parse_counts(const std::string& text, const Key& first, const std::string& path) {
+  PageReader reader(first, path);
+  nlohmann::json::sax_parse(text, &reader);
+  Counts counts = reader.take();
   const bool implied = first[0] == 0;
   if (!implied && !counts.empty() && !counts.contains(first))
-    throw json.error("the node that the page is named after was expected in it. The file is damaged; copy it again.");
+    throw Error(
+        fmt::format("{}: the node that the page is named after was expected in it. The file is damaged; copy it "
+                    "again.",
+                    path));
   const Counts listed = counts;
   for (const auto& entry : listed)
     for (Key key = entry.first; key != first;) {
@@ -97,8 +150,7 @@ std::string key_of(const StoredNode& node) {
 }
 
 TreeStore::HierarchyPiece parse_page(const std::string& text, const StoredNode& first, const std::string& path) {
-  const auto document = parse_json(text, path);
-  const Counts counts = parse_counts(document, key_in_numbers(first), path);
+  const Counts counts = parse_counts(text, key_in_numbers(first), path);
   TreeStore::HierarchyPiece piece;
   if (counts.empty()) return piece;
   piece.nodes.emplace_back();

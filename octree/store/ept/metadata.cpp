@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 48;
 constexpr double kWidestCube = 1e300;
+constexpr std::size_t kMaxDimensions = 1000;
 // Steps of the grid of X, Y and Z that are no integers: an edge of 2^30 leaves a bit for points outside the cube.
 constexpr int kRealGridBits = 30;
 
@@ -84,7 +85,10 @@ Dimension parse_dimension(const JsonValue& json, std::size_t place) {
 
 std::vector<Dimension> parse_dimensions(const JsonValue& json, RowLayout& rows) {
   std::vector<Dimension> dimensions;
-  for (const JsonValue& element : json.elements()) {
+  const std::vector<JsonValue> elements = json.elements();
+  if (elements.size() > kMaxDimensions)
+    throw json.error(fmt::format("{} dimensions, and at most {} are read.", elements.size(), kMaxDimensions));
+  for (const JsonValue& element : elements) {
     dimensions.push_back(parse_dimension(element, rows.bytes));
     rows.bytes += size_of(dimensions.back().type);
   }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint64_t kMaxComponents = 1 << 16;
 constexpr std::size_t kMaxRowBytes = 1 << 20;
+constexpr std::size_t kMaxAttributes = 1000;
 
 // An attribute as the row has it.
 struct Stored {
@@ -76,11 +77,18 @@ Stored parse_name(const JsonValue& json) {
   return *found;
 }
 
-// 1.8: {"name": "gps-time", "size": 8, "elements": 1, "elementSize": 8, "type": "double"}.
+// 1.8: {"name": "gps-time", "size": 8, "elements": 1, "elementSize": 8, "type": "double"}. Where there is no type, the
+// name tells; bytes of a name that does not stay bytes.
 Stored parse_object(const JsonValue& json) {
   Stored stored;
   stored.name = capitals(json["name"].text());
   stored.bytes = json["size"].whole(1, kMaxRowBytes);
+  if (!json.find("type")) {
+    const auto named = std::ranges::find(kNamed, stored.name, &Stored::name);
+    if (named != std::end(kNamed) && named->bytes == stored.bytes) return *named;
+    stored.elements = stored.bytes;
+    return stored;
+  }
   stored.elements = json["elements"].whole(1, kMaxComponents);
   stored.type = json["type"].scalar_type();
   if (stored.bytes != stored.elements * size_of(stored.type))
@@ -112,7 +120,10 @@ RowField field_of(const Stored& stored, const std::string& own_name, std::size_t
 
 void parse_attributes(const JsonValue& json, Metadata& metadata) {
   bool has_position = false;
-  for (const JsonValue& element : json.elements()) {
+  const std::vector<JsonValue> elements = json.elements();
+  if (elements.size() > kMaxAttributes)
+    throw json.error(fmt::format("{} attributes, and at most {} are read.", elements.size(), kMaxAttributes));
+  for (const JsonValue& element : elements) {
     const bool object = element.is_object();
     const Stored stored = object ? parse_object(element) : parse_name(element);
     const std::size_t place = metadata.rows.bytes;

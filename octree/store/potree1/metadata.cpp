@@ -116,10 +116,10 @@ Metadata parse_metadata(const std::string& text, const std::string& path) {
   metadata.scale = json["scale"].number();
   if (!(metadata.scale > 0.0)) throw json["scale"].error("a number above 0 was expected.");
   parse_encoding(json["pointAttributes"], metadata);
-  if (const auto hierarchy = json.find("hierarchy"))
-    metadata.hierarchy = parse_hierarchy(*hierarchy);
+  if (const auto step = json.find("hierarchyStepSize"))
+    metadata.step_size = static_cast<int>(step->whole(1, 1000));
   else
-    metadata.step_size = static_cast<int>(json["hierarchyStepSize"].whole(1, 1000));
+    metadata.hierarchy = parse_hierarchy(json["hierarchy"]);
   return metadata;
 }
 
