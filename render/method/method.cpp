@@ -1,5 +1,7 @@
 #include "render/method/method.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -14,6 +16,16 @@ namespace stipple {
 namespace {
 
 constexpr std::array kModes{Mode::brute_force, Mode::hierarchical, Mode::unstructured};
+
+// Of modes that keep all points on the GPU.
+void check_room(Mode mode, std::size_t points, const MemoryLimits& limits) {
+  const std::uint64_t bytes = points * kGpuBytesPerPoint;
+  if (bytes <= limits.gpu) return;
+  throw Error(
+      fmt::format("mode {} keeps all {} points on the GPU, {} bytes, and {} are allowed. Allow more with "
+                  "--gpu-memory, or draw in mode hierarchical.",
+                  name_of(mode), points, bytes, limits.gpu));
+}
 
 }  // namespace
 
@@ -47,14 +59,16 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
                                     const MethodOptions& options) {
   switch (mode) {
     case Mode::brute_force:
+      check_room(mode, points.size(), options.limits);
       return std::make_unique<BruteForce>(points);
     case Mode::hierarchical:
       if (!octree) throw Error("mode hierarchical needs an octree");
       // A section for more points than there are would stay empty
-      return std::make_unique<Hierarchical>(
-          std::make_unique<MemorySupply>(points, *octree),
-          std::min(options.largest_budget, static_cast<std::uint32_t>(points.size())));
+      return std::make_unique<Hierarchical>(std::make_unique<MemorySupply>(points, *octree),
+                                            std::min(budget_within({.gpu = options.limits.gpu}, options.largest_budget),
+                                                     static_cast<std::uint32_t>(points.size())));
     case Mode::unstructured:
+      check_room(mode, points.size(), options.limits);
       return std::make_unique<Unstructured>(points, options.seed);
   }
   return nullptr;
@@ -62,8 +76,9 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
 
 std::unique_ptr<Method> make_method(Mode mode, const Dataset& dataset, const MethodOptions& options) {
   if (mode == Mode::hierarchical && dataset.tree)
-    return std::make_unique<Hierarchical>(std::make_unique<TreeSupply>(dataset.tree, dataset.colors, dataset.bytes_to_load),
-                                          options.largest_budget);
+    return std::make_unique<Hierarchical>(
+        std::make_unique<TreeSupply>(dataset.tree, dataset.colors, dataset.bytes_to_load),
+        budget_within(options.limits, options.largest_budget));
   return make_method(mode, dataset.points, dataset.octree ? &*dataset.octree : nullptr, options);
 }
 

@@ -58,11 +58,12 @@ bool needs_octree(Mode mode);
 
 struct MethodOptions {
   std::uint64_t seed = 0;                  // of the shuffle
-  std::uint32_t largest_budget = 1 << 20;  // points select() may be asked for
+  std::uint32_t largest_budget = 1 << 20;  // points select() may be asked for; limits may allow fewer
+  MemoryLimits limits{};
 };
 
 // Points (and the tree, where the mode needs one: points then stand in its store order) must outlive the method.
-// Uploads what the mode keeps on the GPU. Throws Error when memory is refused.
+// Uploads what the mode keeps on the GPU. Throws Error when memory is refused, by limits.gpu or the driver.
 std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Octree* octree,
                                     const MethodOptions& options = {});
 // The same for a dataset, whose tree may be on disk.

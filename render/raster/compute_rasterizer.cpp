@@ -13,7 +13,7 @@ auto compiler(bool splats) {
   };
 }
 
-void run_pass(const SourcePrograms& programs, std::span<const DrawItem> items) {
+void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> items) {
   for (const DrawItem& item : items) {
     programs.use_for(item);
     if (const auto* vertices = std::get_if<CarriedVertices>(&item)) {
@@ -43,10 +43,10 @@ void ComputeRasterizer::draw(FeedbackTarget& target, std::span<const DrawItem> i
   target.points().bind_image(2, GL_WRITE_ONLY);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 
-  run_pass(depth_, items);
+  dispatch_points(depth_, items);
   glMemoryBarrier(kPixels);
   notes_.begin();
-  run_pass(claim_, items);
+  dispatch_points(claim_, items);
   glMemoryBarrier(kPixels | kNotes);
   notes_.settle();
 

@@ -9,7 +9,7 @@ Program compile(const std::vector<ShaderDefine>& defines) {
   return Program::graphics("raster_points_vertex.glsl", "raster_points_fragment.glsl", defines);
 }
 
-void run_pass(const SourcePrograms& programs, std::span<const DrawItem> items) {
+void draw_points(const SourcePrograms& programs, std::span<const DrawItem> items) {
   for (const DrawItem& item : items) {
     programs.use_for(item);
     if (const auto* vertices = std::get_if<CarriedVertices>(&item)) {
@@ -57,7 +57,7 @@ void PointsRasterizer::draw(FeedbackTarget& target, std::span<const DrawItem> it
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, all.name());
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_GREATER);
-  run_pass(nearest_, items);
+  draw_points(nearest_, items);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, depth_only.name());
@@ -66,7 +66,7 @@ void PointsRasterizer::draw(FeedbackTarget& target, std::span<const DrawItem> it
   target.ids().bind_image(1, GL_READ_WRITE);
   target.points().bind_image(2, GL_WRITE_ONLY);
   notes_.begin();
-  run_pass(claim_, items);
+  draw_points(claim_, items);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
   notes_.settle();
 

@@ -1,5 +1,6 @@
 #include "render/store/dataset.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
@@ -10,6 +11,7 @@
 
 #include "octree/build/builder.h"
 #include "octree/cloud/cloud.h"
+#include "octree/core/error.h"
 #include "octree/open/open.h"
 #include "octree/store/open_tree.h"
 #include "octree/store/tree_source.h"
@@ -62,14 +64,29 @@ Cloud root_of(const TreeStore& tree, const std::string& color) {
   return cloud;
 }
 
+void check_room(const SourceInfo& info, bool with_octree, const MemoryLimits& limits) {
+  const std::uint64_t bytes = info.point_count * (with_octree ? kBytesPerPointOfOctree : kBytesPerPoint);
+  if (bytes <= limits.main) return;
+  throw Error(
+      fmt::format("{}: its {} points would take about {} bytes of memory, and {} are allowed. Allow more with "
+                  "--memory, or build an octree (stipple build) and draw it in mode hierarchical.",
+                  info.path, info.point_count, bytes, limits.main));
+}
+
 }  // namespace
 
-Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs) {
-  if (!is_tree(path)) return load_dataset(*open_source(path), color, needs.octree);
+Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs,
+                     const MemoryLimits& limits) {
+  if (!is_tree(path)) {
+    const auto source = open_source(path);
+    check_room(source->info(), needs.octree, limits);
+    return load_dataset(*source, color, needs.octree);
+  }
   const auto start = Clock::now();
   Dataset dataset;
   dataset.tree = open_tree(path);
   dataset.info = dataset.tree->info().source;
+  if (needs.points) check_room(dataset.info, false, limits);
   const std::string chosen = choose_color(dataset.info.schema, color);
   const Cloud root = root_of(*dataset.tree, chosen);
   dataset.colors = map_colors(*dataset.tree, root, chosen);

@@ -11,6 +11,7 @@
 #include "octree/tree/octree.h"
 #include "render/frame/point_set.h"
 #include "render/store/colorize.h"
+#include "render/store/memory_limits.h"
 
 namespace stipple {
 
@@ -40,8 +41,10 @@ struct DatasetNeeds {
   bool octree = false;  // an octree, in memory where the input is none itself
 };
 
-// Opens, reads and colours `path` (see choose_color).
-Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs);
+// Opens, reads and colours `path` (see choose_color). Throws Error before it reads points that limits.main has no room
+// for.
+Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs,
+                     const MemoryLimits& limits = {});
 
 // Reads and colours a source that is no tree; builds the octree when asked to.
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree);

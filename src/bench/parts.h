@@ -23,6 +23,9 @@ using TimingSink = std::function<void(const Timing&)>;
 // Reading: positions and colour, everything, and into memory.
 void bench_reading(const PointSource& source, const BenchSettings& settings, const TimingSink& sink);
 
+// Building an octree on disk from the source, in the temporary folder: with each sampling, and with little memory.
+void bench_building(const PointSource& source, const BenchSettings& settings, const TimingSink& sink);
+
 // Building the octree in memory, and the reference renderer.
 void bench_processing(const Dataset& dataset, const BenchSettings& settings, const TimingSink& sink);
 

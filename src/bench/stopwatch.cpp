@@ -13,23 +13,28 @@ double Timing::median_ms() const {
 }
 
 Json Timing::json() const {
-  return {{"part", part},
-          {"median_ms", median_ms()},
-          {"min_ms", std::ranges::min(milliseconds)},
-          {"max_ms", std::ranges::max(milliseconds)},
-          {"amount", amount},
-          {"unit", unit},
-          {"per_second", per_second()}};
+  Json document{{"part", part},
+                {"median_ms", median_ms()},
+                {"min_ms", std::ranges::min(milliseconds)},
+                {"max_ms", std::ranges::max(milliseconds)},
+                {"amount", amount},
+                {"unit", unit},
+                {"per_second", per_second()},
+                {"runs_ms", milliseconds}};
+  document.update(details);
+  return document;
 }
 
-Timing time_part(std::string part, double amount, std::string unit, int repeats, const std::function<void()>& work) {
+Timing time_part(std::string part, double amount, std::string unit, int repeats, const std::function<void()>& work,
+                 const std::function<void()>& before) {
   using Clock = std::chrono::steady_clock;
-  Timing timing{std::move(part), std::move(unit), amount, {}};
-  work();
-  for (int i = 0; i < repeats; ++i) {
+  Timing timing{std::move(part), std::move(unit), amount, {}, Json::object(), ""};
+  for (int i = 0; i <= repeats; ++i) {
+    if (before) before();
     const auto start = Clock::now();
     work();
-    timing.milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    if (i > 0) timing.milliseconds.push_back(milliseconds);
   }
   return timing;
 }

@@ -42,6 +42,9 @@ double parse_positive(std::string_view option, std::string_view text);
 // "20M", "1.5M", "100k", "2G" (decimal factors, either case) or "12345": a whole number, 1 to 10^15.
 std::uint64_t parse_count(std::string_view option, std::string_view text);
 
+// "512M", "4G", "1.5G", "65536": bytes, with k, M or G for powers of 1024 as memory is counted; `least` or more.
+std::uint64_t parse_bytes(std::string_view option, std::string_view text, std::uint64_t least);
+
 // 1234567 as "1,234,567".
 std::string with_thousands(std::uint64_t value);
 

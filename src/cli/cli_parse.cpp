@@ -101,6 +101,24 @@ std::uint64_t parse_count(std::string_view option, std::string_view text) {
   return static_cast<std::uint64_t>(count);
 }
 
+std::uint64_t parse_bytes(std::string_view option, std::string_view text, std::uint64_t least) {
+  static constexpr std::string_view kSuffixes = "kMG";
+  std::size_t power = 0;
+  if (!text.empty()) {
+    const std::size_t suffix = kSuffixes.find(text.back() == 'K' ? 'k' : text.back());
+    if (suffix != std::string_view::npos) power = suffix + 1;
+  }
+  constexpr double kMost = 1e18;
+  const auto value = finite(text.substr(0, text.size() - (power > 0 ? 1 : 0)));
+  const double bytes = value ? *value * static_cast<double>(std::uint64_t{1} << 10 * power) : 0.0;
+  if (!(bytes >= static_cast<double>(least) && bytes <= kMost))
+    throw bad_value(option, text,
+                    fmt::format("an amount of memory of {}k or more, with k, M or G for powers of 1024 bytes, such as "
+                                "512M",
+                                least >> 10));
+  return static_cast<std::uint64_t>(bytes);
+}
+
 std::string with_thousands(std::uint64_t value) {
   std::string text = fmt::format("{}", value);
   for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');

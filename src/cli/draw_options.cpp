@@ -31,6 +31,11 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
   command.add_option("--seed", options.seed, "Seed of the shuffle of mode unstructured, a whole number from 0.")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command.add_option("--memory", options.memory,
+                     "Main memory that points may take, with k, M or G for powers of 1024 bytes; the program itself "
+                     "comes on top. A cloud that needs more is refused, unless it is an octree drawn in mode "
+                     "hierarchical: then the budget is cut to what fits. Default: no limit.");
+  command.add_option("--gpu-memory", options.gpu_memory, "The same for memory of the GPU. Default: no limit.");
 }
 
 RasterizerKind rasterizer_of(const DrawOptions& options) {
@@ -48,6 +53,14 @@ BudgetPolicy budget_of(const DrawOptions& options) {
   policy.points = static_cast<std::uint32_t>(points);
   if (!options.fps.empty()) policy.frames_per_second = parse_positive("--fps", options.fps);
   return policy;
+}
+
+MemoryLimits limits_of(const DrawOptions& options) {
+  constexpr std::uint64_t kLeast = std::uint64_t{64} << 10;  // a thousand points a frame
+  MemoryLimits limits;
+  if (!options.memory.empty()) limits.main = parse_bytes("--memory", options.memory, kLeast);
+  if (!options.gpu_memory.empty()) limits.gpu = parse_bytes("--gpu-memory", options.gpu_memory, kLeast);
+  return limits;
 }
 
 Until parse_until(std::string_view text) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "render/raster/rasterizer.h"
+#include "render/store/memory_limits.h"
 #include "src/run/view_run.h"
 
 namespace stipple {
@@ -20,6 +21,8 @@ struct DrawOptions {
   std::string color;
   std::string background = "808080";
   std::uint64_t seed = 0;
+  std::string memory;
+  std::string gpu_memory;
 };
 
 void add_draw_options(CLI::App& command, DrawOptions& options);
@@ -27,6 +30,7 @@ void add_draw_options(CLI::App& command, DrawOptions& options);
 // Their values. Each throws UsageError naming the option.
 RasterizerKind rasterizer_of(const DrawOptions& options);
 BudgetPolicy budget_of(const DrawOptions& options);
+MemoryLimits limits_of(const DrawOptions& options);
 // "converged", "frame:N" or "ms:T".
 Until parse_until(std::string_view text);
 

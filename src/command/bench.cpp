@@ -3,13 +3,21 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "octree/core/error.h"
 #include "octree/open/open.h"
 #include "octree/read/las/las_writer.h"
 #include "render/gpu/context.h"
+#include "src/bench/compare.h"
 #include "src/bench/parts.h"
 #include "src/cli/cli.h"
 #include "src/json/json.h"
@@ -21,11 +29,15 @@ namespace {
 
 struct Options {
   std::string input;
-  std::string points = "10M";
+  std::vector<std::string> parts{"reading", "building", "processing", "drawing"};
+  std::string points = "20M";
   std::string size = "1280x720";
   std::string budget = "1M";
   int repeats = 5;
+  std::string compare;
   bool json = false;
+
+  bool wants(std::string_view part) const { return std::ranges::find(parts, part) != parts.end(); }
 };
 
 // A generated city in the temporary folder, gone with the object.
@@ -47,35 +59,74 @@ class TemporaryScene {
   std::filesystem::path path_;
 };
 
-void run(const Options& options) {
+BenchSettings settings_of(const Options& options) {
   BenchSettings settings;
   settings.size = parse_size("--size", options.size);
   settings.budget =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(parse_count("--budget", options.budget), 0xFFFFFFFFu));
   settings.repeats = options.repeats;
+  return settings;
+}
+
+Json read_bench(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw Error(fmt::format("{}: cannot be read. Check the path.", path));
+  Json document = Json::parse(file, nullptr, false);
+  if (document.is_discarded())
+    throw Error(fmt::format("{}: is not JSON; a document of `stipple bench --json` was expected.", path));
+  return document;
+}
+
+void print_timing(const Timing& timing) {
+  fmt::print("{:<40}{:>10.2f} ms{:>10.1f} M {}/s\n", timing.part, timing.median_ms(), timing.per_second() * 1e-6,
+             timing.unit);
+  if (!timing.remark.empty()) fmt::print("  {}\n", timing.remark);
+  std::fflush(stdout);
+}
+
+Json json_of(const BenchComparison& comparison) {
+  Json moved = Json::array();
+  for (const Move& move : comparison.moved)
+    moved.push_back({{"part", move.part}, {"old_ms", move.old_ms}, {"new_ms", move.new_ms}, {"ratio", move.ratio()}});
+  return {{"parts", comparison.compared}, {"moved", moved}, {"differences", comparison.differences}};
+}
+
+void print_comparison(const BenchComparison& comparison, const std::string& path) {
+  fmt::print("\nAgainst {}: {} of {} parts moved beyond the noise\n", path, comparison.moved.size(),
+             comparison.compared);
+  for (const Move& move : comparison.moved)
+    fmt::print("{:<40}{:>10.2f} ms{:>10.2f} ms{:>8.2f} x\n", move.part, move.old_ms, move.new_ms, move.ratio());
+  for (const std::string& difference : comparison.differences) warn(fmt::format("{}: {}", path, difference));
+}
+
+void run_parts(const Options& options, const PointSource& source, const Dataset& dataset, const TimingSink& sink) {
+  const BenchSettings settings = settings_of(options);
+  if (options.wants("reading")) bench_reading(source, settings, sink);
+  if (options.wants("building")) bench_building(source, settings, sink);
+  if (options.wants("processing")) bench_processing(dataset, settings, sink);
+  if (options.wants("drawing")) bench_drawing(dataset, settings, sink);
+}
+
+void run(const Options& options) {
+  const BenchSettings settings = settings_of(options);
   const std::uint64_t points = parse_count("--points", options.points);
+  std::optional<Json> old;
+  if (!options.compare.empty()) old = read_bench(options.compare);
 
   std::unique_ptr<TemporaryScene> scene;
   if (options.input.empty()) scene = std::make_unique<TemporaryScene>(points);
   const auto source = open_source(scene ? scene->path() : options.input);
   const HeadlessContext context;
+  const Dataset dataset = load_dataset(*source, "", false);
 
   Json parts = Json::array();
-  const auto sink = [&](const Timing& timing) {
-    parts.push_back(timing.json());
-    if (options.json) return;
-    fmt::print("{:<40}{:>10.2f} ms{:>10.1f} M {}/s\n", timing.part, timing.median_ms(), timing.per_second() * 1e-6,
-               timing.unit);
-    std::fflush(stdout);
-  };
   if (!options.json)
     fmt::print("{} points, {}, {}; medians of {} runs\n\n", with_thousands(source->info().point_count), options.size,
                context.renderer(), settings.repeats);
-  bench_reading(*source, settings, sink);
-  const Dataset dataset = load_dataset(*source, "", false);
-  bench_processing(dataset, settings, sink);
-  bench_drawing(dataset, settings, sink);
-  if (!options.json) return;
+  run_parts(options, *source, dataset, [&](const Timing& timing) {
+    parts.push_back(timing.json());
+    if (!options.json) print_timing(timing);
+  });
 
   Json document = program_provenance();
   document.update(context_provenance(context));
@@ -84,7 +135,11 @@ void run(const Options& options) {
   document["budget"] = settings.budget;
   document["repeats"] = settings.repeats;
   document["parts"] = parts;
-  print_json(document);
+  std::optional<BenchComparison> comparison;
+  if (old) comparison = compare_benches(*old, document, options.compare);
+  if (comparison) document["comparison"] = json_of(*comparison);
+  if (options.json) return print_json(document);
+  if (comparison) print_comparison(*comparison, options.compare);
 }
 
 }  // namespace
@@ -99,17 +154,28 @@ void add_bench_command(CLI::App& app) {
                    "Points of the generated city, plain or with k, M or G for thousands, millions or billions.")
       ->excludes(input)
       ->capture_default_str();
+  command
+      ->add_option("--parts", options->parts,
+                   "What to time, separated by commas: reading; building trees on disk; processing in memory; drawing.")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"reading", "building", "processing", "drawing"}))
+      ->capture_default_str();
   command->add_option("--size", options->size, "Width and height of the picture in pixels.")->capture_default_str();
   command->add_option("--budget", options->budget, "Points a progressive frame fills in.")->capture_default_str();
   command->add_option("--repeat", options->repeats, "Runs of each part that count; one more comes before them.")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  command->add_option("--compare", options->compare,
+                      "What an earlier run printed with --json. Says which parts moved beyond the noise: every run now "
+                      "was faster, or every one slower, than all of then.");
   add_json_flag(*command, options->json);
   command->footer(
-      "Reading from a warm cache, building the octree, the reference renderer, and for each rasterizer brute force "
-      "and\n"
-      "the passes of a progressive frame whose predecessor has drawn half of the points. Times are medians.\n\n"
-      "Example:\n  stipple bench --points 20M");
+      "Reading from a warm cache; building octrees on disk (at most 3 runs) and in memory; the reference renderer; "
+      "for\n"
+      "each rasterizer brute force and the passes of a progressive frame whose predecessor has drawn half of the "
+      "points.\n"
+      "Times are medians.\n\n"
+      "Example:\n  stipple bench --points 20M --json > old.json\n  stipple bench --points 20M --compare old.json");
   command->callback([options] { run(*options); });
 }
 

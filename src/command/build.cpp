@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +14,7 @@
 #include "src/command/build_inputs.h"
 #include "src/command/build_watch.h"
 #include "src/json/json.h"
+#include "src/run/peak_memory.h"
 
 namespace stipple {
 namespace {
@@ -26,44 +25,23 @@ struct Options {
   std::string memory = "4G";
   int threads = 0;
   std::string sampling = "poisson";
+  std::string encoding = "DEFAULT";
   bool force = false;
   bool json = false;
 };
 
-// "512M", "4G", "1.5G": powers of 1024, as memory is counted.
-std::uint64_t parse_bytes(std::string_view option, std::string_view text) {
-  static constexpr std::string_view kSuffixes = "kMG";
-  std::size_t power = 0;
-  if (!text.empty()) {
-    const std::size_t suffix = kSuffixes.find(text.back() == 'K' ? 'k' : text.back());
-    if (suffix != std::string_view::npos) power = suffix + 1;
-  }
-  const double number = parse_positive(option, text.substr(0, text.size() - (power > 0 ? 1 : 0)));
-  const double bytes = number * static_cast<double>(std::uint64_t{1} << 10 * power);
-  if (bytes < static_cast<double>(kLeastMemory) || bytes > 1e18)
-    throw UsageError(
-        fmt::format("{}: \"{}\" is not an amount of memory of {}M or more", option, text, kLeastMemory >> 20));
-  return static_cast<std::uint64_t>(bytes);
-}
-
 StreamOptions stream_options(const Options& options) {
   StreamOptions stream;
-  stream.memory = parse_bytes("--memory", options.memory);
+  stream.memory = parse_bytes("--memory", options.memory, kLeastMemory);
   stream.threads = options.threads;
   if (options.sampling != "poisson" && options.sampling != "random")
     throw UsageError(fmt::format("--sampling: \"{}\" is neither poisson nor random", options.sampling));
   stream.sampling = options.sampling == "random" ? Sampling::random : Sampling::poisson;
+  if (options.encoding != "DEFAULT" && options.encoding != "BROTLI")
+    throw UsageError(fmt::format("--encoding: \"{}\" is neither DEFAULT nor BROTLI", options.encoding));
+  stream.encoding = options.encoding == "BROTLI" ? potree2::Encoding::brotli : potree2::Encoding::uncompressed;
   stream.replace = options.force;
   return stream;
-}
-
-// Of this program alone: getrusage() would count what the program that started it had resident, too.
-std::uint64_t peak_memory() {
-  std::ifstream status("/proc/self/status");
-  std::string line;
-  while (std::getline(status, line))
-    if (line.starts_with("VmHWM:")) return std::strtoull(line.c_str() + 6, nullptr, 10) * 1024;
-  return 0;
 }
 
 void print_as_json(const Options& options, const BuildReport& report, double seconds) {
@@ -77,6 +55,7 @@ void print_as_json(const Options& options, const BuildReport& report, double sec
                       {"depth", report.depth},
                       {"spacing", report.spacing},
                       {"sampling", options.sampling},
+                      {"encoding", options.encoding},
                       {"grid", {{"scale", json_of(report.grid.scale)}, {"offset", json_of(report.grid.offset)}}},
                       {"largest_rounding", report.largest_rounding},
                       {"bytes_read", report.bytes_read},
@@ -140,6 +119,12 @@ void add_build_command(CLI::App& app) {
                    "How inner nodes choose points. poisson: no two of a node are closer than its spacing, which is the "
                    "cube's edge / 128 / 2^level. random: one of each cell of 128^3 in a node; faster, but two points "
                    "may touch.")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--encoding", options->encoding,
+          "How points are stored. DEFAULT: plain records, of which parts of a node can be read. BROTLI: packed "
+          "node by node, for the network; smaller, and slower to build and to read.")
       ->capture_default_str();
   command->add_flag("--force", options->force,
                     "Replace a tree that is already there. Other folders are never replaced.");

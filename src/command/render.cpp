@@ -18,6 +18,7 @@
 #include "src/cli/cli.h"
 #include "src/cli/draw_options.h"
 #include "src/json/json.h"
+#include "src/run/peak_memory.h"
 #include "src/run/provenance.h"
 #include "src/run/view_run.h"
 
@@ -84,7 +85,9 @@ Picture draw_reference(const Dataset& dataset, const View& view, double point_si
 Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, const View& view, double point_size) {
   const BudgetPolicy policy = budget_of(options.draw);
   const HeadlessContext context;
-  const auto method = make_method(mode, dataset, {.seed = options.draw.seed, .largest_budget = largest_budget(policy)});
+  const auto method = make_method(
+      mode, dataset,
+      {.seed = options.draw.seed, .largest_budget = largest_budget(policy), .limits = limits_of(options.draw)});
   ProgressiveRenderer renderer(*method, rasterizer_of(options.draw), dataset.points.grid, point_size);
   const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
   const SelectionCounts counts = method->counts();
@@ -116,6 +119,12 @@ void write_arrays(const Options& options, const FrameData& frame, const Grid& gr
   write_npy(options.position_out, std::span<const double>(positions), {height, width, 3});
 }
 
+// Points a frame: as asked for, or what the memory allows where points stream.
+std::uint32_t budget_in_use(const Options& options, const Dataset& dataset) {
+  const std::uint32_t budget = budget_of(options.draw).points;
+  return dataset.in_memory() ? budget : budget_within(limits_of(options.draw), budget);
+}
+
 void run(const Options& options) {
   // Check what can be checked before the points are read
   const std::optional<Mode> mode = mode_named(options.mode);
@@ -127,11 +136,12 @@ void run(const Options& options) {
   const std::uint32_t background = parse_color("--background", options.draw.background);
   rasterizer_of(options.draw);
   budget_of(options.draw);
+  const MemoryLimits limits = limits_of(options.draw);
   parse_until(options.until);
 
   // Methods that draw from an octree leave it on disk where it is there
   const bool tree = mode && needs_octree(*mode);
-  const Dataset dataset = open_dataset(options.input, options.draw.color, {.points = !tree, .octree = tree});
+  const Dataset dataset = open_dataset(options.input, options.draw.color, {.points = !tree, .octree = tree}, limits);
   for (const std::string& warning : dataset.info.warnings) warn(warning);
   const Camera camera = camera_of(options, dataset, static_cast<double>(size.x) / size.y);
   const View view = make_view(camera, size, near_plane(dataset.points.grid));
@@ -141,7 +151,7 @@ void run(const Options& options) {
   Json stats{{"mode", options.mode},
              {"raster", mode ? Json(options.draw.raster) : Json()},
              {"seed", options.draw.seed},
-             {"budget", budget_of(options.draw).points},
+             {"budget", budget_in_use(options, dataset)},
              {"point_size", point_size},
              {"background", options.draw.background},
              {"load_ms", dataset.load_seconds * 1e3},
@@ -152,6 +162,7 @@ void run(const Options& options) {
   stats.update(dataset_provenance(dataset));
   stats["view"] = view_provenance(view);
   stats.update(program_provenance());
+  stats["peak_memory_bytes"] = peak_memory();
 
   write_png(options.output, compose(picture.frame, background), {{"stipple", text_of(stats)}});
   if (!options.stats.empty()) write_file(options.stats, text_of(stats, 2) + "\n");

@@ -45,6 +45,7 @@ StudySettings settings_of(const Options& options) {
   settings.size = parse_size("--size", options.draw.size);
   settings.raster = rasterizer_of(options.draw);
   settings.budget = budget_of(options.draw);
+  settings.limits = limits_of(options.draw);
   settings.seconds = parse_positive("--duration", options.duration);
   settings.repeats = options.repeats;
   settings.point_size = parse_positive("--point-size", options.draw.point_size);

@@ -20,7 +20,7 @@ constexpr double kCell = kForestSize / kCells;
 constexpr double kGroundWeight = 2.0;  // points on a square metre of ground against one of leaf
 
 // What a part of the file covers: a square cell of ground, or one tree.
-struct Piece {
+struct Canopy {
   bool is_tree;
   std::uint32_t number;  // of the tree, or of the cell: y * kCells + x
 };
@@ -60,7 +60,7 @@ class Forest : public SceneModel {
   ScenePoint point(std::uint64_t index) const override {
     PointRandom random(seed_, index);
     const double place = (static_cast<double>(index) + random.uniform()) / static_cast<double>(points_);
-    const Piece& piece = pieces_[areas_.pick(place)];
+    const Canopy& piece = pieces_[areas_.pick(place)];
     return piece.is_tree ? sample_tree(trees_[piece.number], random) : sample_ground(piece.number, random);
   }
 
@@ -134,7 +134,7 @@ class Forest : public SceneModel {
   std::uint64_t points_;
   std::uint64_t seed_;
   std::uint32_t salt_;
-  std::vector<Piece> pieces_;
+  std::vector<Canopy> pieces_;
   AreaTable areas_;
   std::vector<Tree> trees_;
 };

@@ -78,7 +78,9 @@ class InputStudy {
   fs::path folder(const char* kind) const { return fs::path(settings_.folder) / kind / name_; }
 
   std::unique_ptr<Method> method(Mode mode) const {
-    return make_method(mode, dataset_, {.seed = settings_.seed, .largest_budget = largest_budget(settings_.budget)});
+    return make_method(
+        mode, dataset_,
+        {.seed = settings_.seed, .largest_budget = largest_budget(settings_.budget), .limits = settings_.limits});
   }
 
   Truth truth_of(const std::string& view_name, const View& view) {
@@ -187,7 +189,8 @@ StudyResult run_study(const StudySettings& settings, const HeadlessContext& cont
   for (std::size_t i = 0; i < settings.inputs.size(); ++i) {
     try {
       progress(fmt::format("{}: reading{}", names[i], with_octree ? " and building the octree" : ""));
-      const Dataset dataset = open_dataset(settings.inputs[i], settings.color, {.octree = with_octree});
+      const Dataset dataset =
+          open_dataset(settings.inputs[i], settings.color, {.octree = with_octree}, settings.limits);
       InputStudy(settings, names[i], dataset, progress).run(curves, summaries, views);
       Json json{{"name", names[i]}};
       json.update(dataset_provenance(dataset));

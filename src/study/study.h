@@ -24,6 +24,7 @@ struct StudySettings {
   glm::ivec2 size{1280, 720};
   RasterizerKind raster = RasterizerKind::compute;
   BudgetPolicy budget;
+  MemoryLimits limits;
   double seconds = 120.0;  // of drawing, at most, for each curve
   int repeats = 1;
   double point_size = 1.0;

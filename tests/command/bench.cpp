@@ -10,7 +10,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kParts = 5 + 2 * 6;  // reading, processing; brute force and a frame's five for each rasterizer
+std::string write_text(const ScratchFolder& folder, const std::string& text) {
+  std::ofstream(folder.path("old.json")) << text;
+  return folder.path("old.json");
+}
+
+constexpr std::size_t kParts =
+    3 + 3 + 2 + 2 * 6;  // reading, building, processing; brute force and a frame's five for each rasterizer
 
 TEST(BenchCommand, TimesEveryPartOfATinyInput) {
   const ScratchFolder folder;
@@ -31,8 +37,44 @@ TEST(BenchCommand, TimesEveryPartOfATinyInput) {
        {"read LAS", "load LAS", "build octree", "reference", "points: brute force", "points: reproject, screen grid",
         "compute: brute force", "compute: reproject, vertices", "compute: fill", "compute: prepare"})
     EXPECT_TRUE(contains(names, name));
+  for (const Json& part : document.at("parts")) {
+    if (!contains(part.at("part").get<std::string>(), "tree on disk")) continue;
+    double sum = 0.0;
+    for (const Json& share : part.at("phase_shares")) sum += share.get<double>();
+    EXPECT_NEAR(sum, 1.0, 1e-9);
+    EXPECT_GE(part.at("bytes_read").get<double>(), 2.0 * 3'000 * 12);  // positions at least, once to count
+    EXPECT_GE(part.at("bytes_written").get<double>(), 3'000 * 12);
+  }
   for (const char* key : {"version", "machine", "gl_renderer", "dataset", "size", "budget", "repeats"})
     EXPECT_TRUE(document.contains(key)) << key;
+}
+
+TEST(BenchCommand, ComparesWithAnEarlierRun) {
+  const ScratchFolder folder;
+  const std::string options = "bench " + city_file(folder, 2'000) + " --parts reading --size 16x9 --repeat 3 --json";
+  const Outcome first = run_stipple(folder, options);
+  ASSERT_EQ(first.code, 0) << first.err;
+  Json old = Json::parse(first.out);
+  for (Json& part : old.at("parts")) part["runs_ms"] = {1e6, 1e6, 1e6};  // no run takes as long
+  const std::string path = write_text(folder, old.dump());
+  const Outcome second = run_stipple(folder, options + " --compare " + path);
+  ASSERT_EQ(second.code, 0) << second.err;
+  const Json comparison = Json::parse(second.out).at("comparison");
+  EXPECT_EQ(comparison.at("parts"), 3);
+  EXPECT_EQ(comparison.at("moved").size(), 3);
+  EXPECT_TRUE(comparison.at("differences").empty()) << comparison.dump();
+}
+
+TEST(BenchCommand, RefusesToCompareWithAnythingElse) {
+  const ScratchFolder folder;
+  const std::string city = city_file(folder, 100);
+  for (const char* text : {"{}", "[1, 2]", "no JSON", R"({"parts": 7})"}) {
+    const Outcome outcome = run_stipple(
+        folder, "bench " + city + " --parts reading --size 16x9 --repeat 1 --compare " + write_text(folder, text));
+    EXPECT_EQ(outcome.code, 1) << text;
+    EXPECT_TRUE(contains(outcome.err, "old.json")) << outcome.err;
+  }
+  EXPECT_EQ(run_stipple(folder, "bench " + city + " --compare " + folder.path("none")).code, 1);
 }
 
 TEST(BenchCommand, AnEmptyFileHasParts) {

@@ -1,6 +1,7 @@
 // `stipple build` as a user meets it: limits on memory, kills, interruptions, output.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/mount.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -100,7 +101,7 @@ TEST_F(BuildCommand, WrongUsageIsTwoAndFailedWorkOne) {
 }
 
 TEST_F(BuildCommand, StaysWithinItsMemory) {
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the sanitizer's own memory would count as the builder's";
 #endif
   const std::string city = city_file(folder_, 3'000'000);
@@ -127,6 +128,41 @@ TEST_F(BuildCommand, SurvivesKillsAtRandomMoments) {
   ASSERT_EQ(run("build " + city + " -o " + path("tree") + " --force").code, 0);
   EXPECT_TRUE(text_of(path("tree/octree.bin")) == whole);
   EXPECT_TRUE(leftovers().empty());
+}
+
+// A disk of its own, mounted for the test: takes root.
+class SmallDisk {
+ public:
+  SmallDisk(std::string path, const char* size) : path_(std::move(path)) {
+    fs::create_directories(path_);
+    mounted_ = ::mount("tmpfs", path_.c_str(), "tmpfs", 0, size) == 0;
+  }
+  ~SmallDisk() {
+    if (mounted_) ::umount(path_.c_str());
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  bool mounted() const { return mounted_; }
+
+ private:
+  std::string path_;
+  bool mounted_ = false;
+};
+
+TEST_F(BuildCommand, AFullDiskLeavesTheOldTree) {
+  const SmallDisk disk(path("disk"), "size=16M");
+  if (!disk.mounted()) GTEST_SKIP() << "may not mount a disk here";
+  const std::string small = city_file(folder_, 100'000, "small.las");
+  const std::string large = city_file(folder_, 2'000'000, "large.las");
+  ASSERT_EQ(run("build " + small + " -o " + path("disk/tree")).code, 0);
+  for (const char* options : {" --force", " --force --memory 128M"}) {
+    const Outcome full = run("build " + large + " -o " + path("disk/tree") + options);
+    EXPECT_EQ(full.code, 1);
+    EXPECT_NE(full.err.find("No space left on device"), std::string::npos) << full.err;
+    EXPECT_EQ(run("check " + path("disk/tree") + " --against " + small).code, 0);
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("disk")), fs::directory_iterator()), 1);
+  }
+  EXPECT_EQ(run("build " + small + " -o " + path("disk/tree") + " --force").code, 0);
 }
 
 TEST_F(BuildCommand, AnInterruptionLeavesNothing) {

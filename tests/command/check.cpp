@@ -1,8 +1,11 @@
 // `stipple check`, and `stipple info` and `stipple render` of a tree.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/command/run_stipple.h"
 #include "tests/octree/potree2_files.h"
+#include "tests/octree/stream_build_fixture.h"
 
 namespace stipple::test {
 namespace {
@@ -45,6 +48,49 @@ TEST(CheckCommand, ADifferenceFromTheInputIsExitCodeOne) {
   EXPECT_EQ(outcome.code, 1);
   EXPECT_TRUE(contains(outcome.err, "times in the inputs"));
 }
+
+// From the command line alone, with every attribute: all scenes, and clouds that are hard to divide.
+class BuildAndCheck : public testing::TestWithParam<std::string> {
+ protected:
+  void build_and_check(const ScratchFolder& folder, const std::string& las) const {
+    for (const char* options : {"", " --sampling random", " --encoding BROTLI"}) {
+      const std::string tree = folder.path("tree");
+      const Outcome built = run_stipple(folder, "build " + las + " -o " + tree + " --force" + options);
+      ASSERT_EQ(built.code, 0) << options << built.err;
+      const Outcome checked = run_stipple(folder, "check " + tree + " --against " + las);
+      EXPECT_EQ(checked.code, 0) << options << checked.err;
+    }
+  }
+};
+
+TEST_P(BuildAndCheck, ASceneIsInItsTreePointByPoint) {
+  const ScratchFolder folder;
+  const std::string las = folder.path("scene.las");
+  write_las(*make_scene(GetParam(), 60'000, 1), las);
+  build_and_check(folder, las);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BuildAndCheck, testing::ValuesIn(scene_names()),
+                         [](const auto& test) { return test.param; });
+
+class BuildAndCheckCloud : public BuildAndCheck {};
+
+TEST_P(BuildAndCheckCloud, IsInItsTreePointByPoint) {
+  const auto clouds = test_clouds();
+  const auto cloud = std::ranges::find(clouds, GetParam(), &TestCloud::name);
+  const ScratchFolder folder;
+  write_las(CloudSource(*cloud), folder.path("cloud.las"));
+  build_and_check(folder, folder.path("cloud.las"));
+}
+
+std::vector<std::string> cloud_names() {
+  std::vector<std::string> names;
+  for (const TestCloud& cloud : test_clouds()) names.push_back(cloud.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Clouds, BuildAndCheckCloud, testing::ValuesIn(cloud_names()),
+                         [](const auto& test) { return test.param; });
 
 TEST(CheckCommand, WhatIsNoTreeIsExitCodeOne) {
   const ScratchFolder folder;

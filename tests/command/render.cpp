@@ -233,5 +233,51 @@ TEST_F(RenderCommand, AFrameRateInsteadOfABudgetConvergesToo) {
   EXPECT_EQ(picture("a.png", "--fps 30").rgb, picture("b.png", "--budget 4M").rgb);
 }
 
+// The tree is ten times larger than both limits together, and ten times what drawing it adds to the process.
+TEST_F(RenderCommand, ATreeTenTimesLargerThanItsMemoryIsDrawn) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer's own memory would count as the points'";
+#endif
+  const auto build = [&](std::uint64_t points, const std::string& name) {
+    const std::string city = city_file(folder_, points, name + ".las");
+    EXPECT_EQ(run_stipple(folder_, "build " + city + " -o " + folder_.path(name)).code, 0);
+    return folder_.path(name);
+  };
+  const auto draw = [&](const std::string& tree, const std::string& options) {
+    const std::string picture = tree + ".png";
+    const Outcome outcome = run_stipple(
+        folder_, "render " + tree + " -o " + picture + " --size 320x180 --mode hierarchical --json" + options);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return Json::parse(outcome.out);
+  };
+  const std::string limits = " --memory 4M --gpu-memory 2M";
+  const std::string large = build(2'500'000, "large");
+  ASSERT_GT(fs::file_size(large + "/octree.bin"), 10u * (6 << 20));
+  const Json one = draw(build(1'000, "small"), limits);
+  const Json limited = draw(large, limits);
+  EXPECT_EQ(limited.at("converged"), true);
+  EXPECT_LE(limited.at("budget").get<std::uint32_t>(), (2u << 20) / 40);
+  EXPECT_LT(limited.at("peak_memory_bytes").get<double>() - one.at("peak_memory_bytes").get<double>(), 10 << 20);
+  const std::string picture = text_of(large + ".png");
+  draw(large, "");
+  std::ofstream(folder_.path("limited.png"), std::ios::binary) << picture;
+  const Outcome compared = run_stipple(folder_, "compare " + folder_.path("limited.png") + " " + large + ".png --json");
+  EXPECT_EQ(Json::parse(compared.out).at("psnr_db"), "inf");
+}
+
+TEST_F(RenderCommand, WhatDoesNotFitIsRefusedBeforeItIsRead) {
+  const std::string city = city_file(folder_, 10'000, "refused.las");
+  const auto refused = [&](const std::string& options) {
+    const Outcome outcome =
+        run_stipple(folder_, "render " + city + " -o " + folder_.path("none.png") + " --size 64x36 " + options);
+    EXPECT_EQ(outcome.code, 1) << options;
+    EXPECT_FALSE(fs::exists(folder_.path("none.png")));
+    return outcome.err;
+  };
+  EXPECT_TRUE(contains(refused("--memory 64k"), "--memory"));
+  EXPECT_TRUE(contains(refused("--gpu-memory 64k"), "--gpu-memory"));
+  EXPECT_EQ(run_stipple(folder_, "render " + city + " -o x.png --memory 1k").code, 2);
+}
+
 }  // namespace
 }  // namespace stipple::test

@@ -79,6 +79,21 @@ TEST_P(StreamBuildCloud, IsTheSameByteForByteWhateverThreadsMemoryAndOrder) {
   EXPECT_EQ(read_tree(path("a")).sorted_records(), read_tree(path("b")).sorted_records());
 }
 
+TEST_P(StreamBuildCloud, BrotliHoldsTheSamePointsInTheSameNodesAndOrder) {
+  StreamOptions options = small_nodes();
+  build(sources_of(GetParam()), "plain", options);
+  options.encoding = potree2::Encoding::brotli;
+  build(sources_of(GetParam()), "packed", options);
+  const ReadTree plain = read_tree(path("plain"));
+  const ReadTree packed = read_tree(path("packed"));
+  ASSERT_EQ(packed.nodes.size(), plain.nodes.size());
+  for (std::size_t n = 0; n < plain.nodes.size(); ++n) {
+    EXPECT_EQ(name_of(packed.nodes[n].node), name_of(plain.nodes[n].node));
+    EXPECT_TRUE(records_of(packed.nodes[n].points) == records_of(plain.nodes[n].points))
+        << name_of(plain.nodes[n].node);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Clouds, StreamBuildCloud, testing::ValuesIn(test_clouds()), cloud_name);
 
 }  // namespace

@@ -157,5 +157,22 @@ TEST_F(StreamBuild, RefusesTooLittleMemory) {
   EXPECT_NE(message_of([&] { build(sources_of(cloud()), "tree", options); }).find("128 MiB"), std::string::npos);
 }
 
+// Brotli packs a node as a whole: a pile larger than memory cannot be.
+TEST_F(StreamBuild, SaysThatAPileIsTooLargeToBePacked) {
+  TestCloud pile = test_clouds().front();
+  pile.positions.assign(20'000, glm::ivec3(7));
+  StreamOptions options = small_nodes();
+  options.most_in_memory = 5'000;
+  build(sources_of(pile), "plain", options);
+  options.encoding = potree2::Encoding::brotli;
+  try {
+    build(sources_of(pile), "packed", options);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("--encoding DEFAULT"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(entries(), 1u);
+}
+
 }  // namespace
 }  // namespace stipple::test

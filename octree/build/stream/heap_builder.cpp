@@ -1,10 +1,12 @@
 // Heaps of points at one place that are larger than memory.
+#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 
 #include "octree/build/stream/record.h"
 #include "octree/build/stream/region_builder.h"
+#include "octree/core/error.h"
 
 namespace stipple {
 namespace {
@@ -37,10 +39,20 @@ class RunCutter {
 }  // namespace
 
 void RegionBuilder::build_heap(const Region& region) {
+  if (setup_.options.encoding == potree2::Encoding::brotli)
+    throw Error(
+        fmt::format("{} points stand at one place, and memory is too little to pack them as one node. Give it "
+                    "more, or build with --encoding DEFAULT.",
+                    region.points));
   monitor_.begin(BuildPhase::building);
   potree2::PackedNodes packed;
-  potree2::PackedNodes::PackedNode node{
-      region.cell.level, region.cell.code, static_cast<std::uint32_t>(region.points), 0, {}, {}};
+  potree2::PackedNodes::PackedNode node{region.cell.level,
+                                        region.cell.code,
+                                        static_cast<std::uint32_t>(region.points),
+                                        0,
+                                        region.points * setup_.record_bytes,
+                                        {},
+                                        {}};
   node.profile.occupied.fill(1);
   RunCutter cutter(setup_.record_bytes, static_cast<std::uint32_t>(setup_.options.cluster_points), region.points);
   Cluster cluster;

@@ -24,6 +24,11 @@ constexpr std::uint64_t kSlack = 32 * kMega;
 constexpr std::uint64_t kOpenPoints = (3 * 6 + 2 * 8) * 20'000;
 constexpr std::uint64_t kBatchPoints = 65'536;  // that readers deliver at most
 constexpr std::uint64_t kChunkBytes = 4 * kMega;
+// A node's columns before and after, 8 MiB at most, and brotli's own: a window of 4 MiB and tables.
+constexpr std::uint64_t kEncoderBytes = 24 * kMega;
+// Of a region too large for memory: the share of the memory that one of its parts may take. Small, so that among many
+// parts some come near it, and a cloud three times as large takes no more.
+constexpr std::uint64_t kPartsInMemory = 8;
 
 // Reading and building follow each other: a thread needs the larger of the two.
 std::uint64_t thread_bytes(std::size_t points, std::size_t record_bytes) {
@@ -57,7 +62,8 @@ void keep_heap_small(std::uint64_t memory) {
 
 MemoryPlan plan_memory(const StreamOptions& options, std::size_t record_bytes) {
   const std::size_t points = chunk_points(options, record_bytes);
-  const std::uint64_t a_thread = thread_bytes(points, record_bytes);
+  const std::uint64_t encoder = options.encoding == potree2::Encoding::brotli ? kEncoderBytes : 0;
+  const std::uint64_t a_thread = thread_bytes(points, record_bytes) + encoder;
   const std::uint64_t open = kOpenPoints * (record_bytes + sizeof(CodedPoint) + sizeof(glm::ivec3));
   const std::uint64_t fixed = resident_bytes() + kSlack + open;
   MemoryPlan plan;
@@ -72,6 +78,7 @@ MemoryPlan plan_memory(const StreamOptions& options, std::size_t record_bytes) {
   plan.region_bytes = plan.spill_bytes;
   if (options.most_in_memory < plan.region_bytes / record_bytes)
     plan.region_bytes = std::max<std::uint64_t>(options.most_in_memory * record_bytes, least);
+  plan.part_bytes = std::max(plan.region_bytes / kPartsInMemory, least);
   return plan;
 }
 

@@ -11,6 +11,7 @@ namespace stipple {
 struct MemoryPlan {
   int threads = 1;
   std::uint64_t region_bytes = 0;  // records that are held at once, while they are built
+  std::uint64_t part_bytes = 0;    // of the parts of a region that is larger, where its cells can be divided so far
   std::uint64_t spill_bytes = 0;   // of buffers, while points are spilled; region_bytes are not in use then
 };
 

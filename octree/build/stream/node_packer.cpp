@@ -36,9 +36,13 @@ void NodePacker::pack(const SortedPoints& points, std::span<const std::uint32_t>
   coded_.resize(own.size());
   for (std::size_t i = 0; i < own.size(); ++i) coded_[i] = points.coded[own[i]];
   const std::size_t clusters = std::max<std::size_t>(1, (own.size() + cluster_points_ / 2) / cluster_points_);
-  potree2::PackedNodes::PackedNode node{
-      cell.level, cell.code,         static_cast<std::uint32_t>(own.size()), static_cast<std::uint32_t>(clusters),
-      {},         box_counts(coded_)};
+  potree2::PackedNodes::PackedNode node{cell.level,
+                                        cell.code,
+                                        static_cast<std::uint32_t>(own.size()),
+                                        static_cast<std::uint32_t>(clusters),
+                                        own.size() * record_bytes_,
+                                        {},
+                                        box_counts(coded_)};
   for (std::size_t c = 0; c < clusters; ++c) {
     const std::size_t first = own.size() * c / clusters;
     const std::size_t count = own.size() * (c + 1) / clusters - first;

@@ -8,6 +8,7 @@
 
 #include "octree/build/stream/monitor.h"
 #include "octree/cloud/grid.h"
+#include "octree/store/potree2/format.h"
 
 namespace stipple {
 
@@ -18,6 +19,8 @@ struct StreamOptions {
   std::uint64_t memory = std::uint64_t{4} << 30;  // bytes the process may keep resident; kLeastMemory or more
   int threads = 0;                                // 0: one a core. Fewer are used where the memory allows no more
   Sampling sampling = Sampling::poisson;
+  // brotli: a half to two thirds of the bytes; parts of nodes can no longer be read, and building takes longer.
+  potree2::Encoding encoding = potree2::Encoding::uncompressed;
   std::size_t leaf_capacity = 40'000;  // a cell with more points is divided; 1 or more
   std::size_t cluster_points = 2'000;  // about as many in each cluster; 1 or more
   std::uint64_t seed = 0;              // of sampling and shuffling

@@ -1,13 +1,13 @@
 #include "octree/build/stream/region_builder.h"
 
-#include <tbb/parallel_pipeline.h>
-
 #include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>
 
 #include "octree/build/stream/distribute.h"
+#include "octree/build/stream/in_order.h"
+#include "octree/store/potree2/node_encoder.h"
 
 namespace stipple {
 namespace {
@@ -106,42 +106,30 @@ void RegionBuilder::build_in_memory(const Region& region, CellMap& map) {
 }
 
 void RegionBuilder::build_chunks(std::span<const Chunk> chunks) {
-  using WorkPointer = std::shared_ptr<Work>;
-  std::size_t next = 0;
-  const auto take = [&](tbb::flow_control& control) -> WorkPointer {
-    if (next == chunks.size()) {
-      control.stop();
-      return nullptr;
-    }
-    auto work = std::make_shared<Work>();
-    work->chunk = chunks[next++];
-    return work;
-  };
-  const auto grow = [&](const WorkPointer& work) {
+  const auto grow = [&](std::size_t index) {
+    auto work = std::make_unique<Work>();
+    work->chunk = chunks[index];
     const Chunk& chunk = work->chunk;
     const auto records = records_.bytes().subspan(chunk.first * setup_.record_bytes, chunk.count * setup_.record_bytes);
     BuiltChunk built = chunk_builders_.local().build({chunk.level, chunk.code}, records);
     work->top = std::move(built.top);
     work->below = std::move(built.below);
+    encode(work->below);
     return work;
   };
-  const auto join = [&](const WorkPointer& work) {
-    place(*work);
-    return work;
-  };
-  const auto put = [&](const WorkPointer& work) { write(*work); };
-  constexpr auto kOrdered = tbb::filter_mode::serial_in_order;
-  constexpr auto kParallel = tbb::filter_mode::parallel;
   const std::size_t in_flight = static_cast<std::size_t>(setup_.plan.threads) * 3 / 2 + 1;
-  tbb::parallel_pipeline(in_flight, tbb::make_filter<void, WorkPointer>(kOrdered, take) &
-                                        tbb::make_filter<WorkPointer, WorkPointer>(kParallel, grow) &
-                                        tbb::make_filter<WorkPointer, WorkPointer>(kOrdered, join) &
-                                        tbb::make_filter<WorkPointer, void>(kParallel, put));
+  in_order<Work>(
+      chunks.size(), in_flight, grow, [&](Work& work) { place(work); }, [&](const Work& work) { write(work); });
+}
+
+void RegionBuilder::encode(potree2::PackedNodes& packed) const {
+  if (setup_.options.encoding == potree2::Encoding::brotli) potree2::encode_brotli(packed, setup_.schema);
 }
 
 void RegionBuilder::place(Work& work) {
   work.below_place = writer_.place(work.below);
   upper_.add(std::move(work.top), work.above);
+  encode(work.above);
   work.above_place = writer_.place(work.above);
 }
 
@@ -158,16 +146,15 @@ void RegionBuilder::write_packed(std::uint64_t place, const potree2::PackedNodes
   if (!monitor_.on_finished) return;
   std::vector<FinishedNode> finished;
   for (const potree2::PackedNodes::PackedNode& node : packed.nodes) {
-    const std::uint64_t bytes = std::uint64_t{node.points} * setup_.record_bytes;
     finished.push_back(
-        {node.level, morton_decode(node.code >> bits_below(node.level)), node.points, place, bytes, node.box});
-    place += bytes;
+        {node.level, morton_decode(node.code >> bits_below(node.level)), node.points, place, node.bytes, node.box});
+    place += node.bytes;
   }
   monitor_.on_finished({writer_.points_path(), finished});
 }
 
 void RegionBuilder::build_parts(const Region& region, CellMap& map) {
-  std::uint64_t capacity = setup_.plan.region_bytes / setup_.record_bytes;
+  std::uint64_t capacity = setup_.plan.part_bytes / setup_.record_bytes;
   while (map.refine(capacity)) map.count(region.read_codes);
   map.divide(capacity);
   const std::size_t most = std::min<std::size_t>(kMostParts, setup_.plan.spill_bytes / kSmallestBuffer);
@@ -205,6 +192,7 @@ void RegionBuilder::build_parts(const Region& region, CellMap& map) {
 void RegionBuilder::finish() {
   Work work;
   upper_.finish(work.above);
+  encode(work.above);
   work.above_place = writer_.place(work.above);
   write(work);
 }

@@ -33,7 +33,8 @@ struct Region {
 struct BuildSetup {
   StreamOptions options;  // chunk_points as chunk_points() says
   CubeFrame frame;
-  std::size_t record_bytes = 0;
+  Schema schema;
+  std::size_t record_bytes = 0;  // of the schema
   MemoryPlan plan;
 };
 
@@ -54,6 +55,7 @@ class RegionBuilder {
   void build_parts(const Region& region, CellMap& map);
   // All points have one code and are too many for memory: they become a leaf in the order in which they stand.
   void build_heap(const Region& region);
+  void encode(potree2::PackedNodes& packed) const;
   void place(Work& work);
   void write(const Work& work);
   void write_packed(std::uint64_t place, const potree2::PackedNodes& packed);

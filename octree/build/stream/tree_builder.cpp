@@ -86,10 +86,11 @@ class TreeBuild {
         threads_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(plan_.threads)),
         stats_(inputs_.schema()),
         folder_(target, options.replace),
-        writer_(folder_.path(), inputs_.record_bytes()),
+        writer_(folder_.path()),
         spill_(folder_.path(), monitor) {
     setup_.options = options;
     setup_.options.chunk_points = chunk_points(options, inputs_.record_bytes());
+    setup_.schema = inputs_.schema();
     setup_.record_bytes = inputs_.record_bytes();
     setup_.plan = plan_;
   }
@@ -128,6 +129,7 @@ class TreeBuild {
     metadata.grid = setup_.frame.grid;
     metadata.spacing = spacing_of_level(setup_.frame.cube, 0);
     metadata.cube = box_of(setup_.frame.cube);
+    metadata.encoding = setup_.options.encoding;
     metadata.schema = inputs_.schema();
     metadata.ranges = stats_.ranges();
     metadata.ranges.insert(metadata.ranges.begin(), position_range(setup_.frame));

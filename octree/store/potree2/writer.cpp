@@ -4,26 +4,25 @@
 
 namespace stipple::potree2 {
 
-TreeWriter::TreeWriter(const std::string& folder, std::size_t record_bytes)
-    : folder_(folder), record_bytes_(record_bytes), points_(folder + "/octree.bin"), sidecar_(folder) {}
+TreeWriter::TreeWriter(const std::string& folder)
+    : folder_(folder), points_(folder + "/octree.bin"), sidecar_(folder) {}
 
 std::uint64_t TreeWriter::place(const PackedNodes& packed) {
   const std::uint64_t begin = end_;
   std::span<const Cluster> clusters = packed.clusters;
   for (const PackedNodes::PackedNode& node : packed.nodes) {
-    const std::uint64_t bytes = std::uint64_t{node.points} * record_bytes_;
-    nodes_.push_back({node.code, end_, bytes, node.points, node.level});
+    nodes_.push_back({node.code, end_, node.bytes, node.points, node.level});
     sidecar_.add({end_, 0, node.points, node.clusters, static_cast<std::uint32_t>(node.level), node.box, node.profile},
                  clusters.first(node.clusters));
     clusters = clusters.subspan(node.clusters);
-    end_ += bytes;
+    end_ += node.bytes;
   }
   return begin;
 }
 
-void TreeWriter::write(std::uint64_t place, std::span<const std::byte> records) {
-  points_.write_at(place, records);
-  points_.start_sync(place, records.size());
+void TreeWriter::write(std::uint64_t place, std::span<const std::byte> bytes) {
+  points_.write_at(place, bytes);
+  points_.start_sync(place, bytes.size());
 }
 
 void TreeWriter::finish(Metadata& metadata, SidecarHeader sidecar) {

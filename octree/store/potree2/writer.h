@@ -23,12 +23,13 @@ struct PackedNodes {
     std::uint64_t code = 0;  // Morton code, lowest of the cell
     std::uint32_t points = 0;
     std::uint32_t clusters = 0;
-    GridBox box;  // tight
+    std::uint64_t bytes = 0;  // of PackedNodes::bytes
+    GridBox box;              // tight
     BoxCounts profile;
   };
   std::vector<PackedNode> nodes;
   std::vector<Cluster> clusters;  // node after node; `first` counts from the node's first point
-  Buffer<std::byte> bytes;        // records
+  Buffer<std::byte> bytes;        // records, or what encode_brotli() made of them
 
   void clear() {
     nodes.clear();
@@ -40,15 +41,15 @@ struct PackedNodes {
 class TreeWriter {
  public:
   // `folder` exists and is empty. Throws Error when files cannot be created there.
-  TreeWriter(const std::string& folder, std::size_t record_bytes);
+  explicit TreeWriter(const std::string& folder);
 
   // The place of octree.bin while it is written.
   const std::string& points_path() const { return points_.path(); }
 
   // Gives the nodes the next place in octree.bin and returns it. The order of calls is that of the file. One thread.
   std::uint64_t place(const PackedNodes& packed);
-  // Writes records to the place that their nodes were given. From several threads at once.
-  void write(std::uint64_t place, std::span<const std::byte> records);
+  // Writes bytes to the place that their nodes were given. From several threads at once.
+  void write(std::uint64_t place, std::span<const std::byte> bytes);
 
   // Completes all files and brings them to the disk. Sets what the hierarchy says in `metadata`. The cloud of no point
   // gets a root without points.
@@ -59,7 +60,6 @@ class TreeWriter {
 
  private:
   std::string folder_;
-  std::size_t record_bytes_;
   WriterFile points_;
   SidecarWriter sidecar_;
   std::vector<NodeEntry> nodes_;
