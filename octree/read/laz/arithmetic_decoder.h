@@ -1,7 +1,6 @@
 // The arithmetic decoder: from bytes to symbols.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -36,7 +35,8 @@ struct ArithmeticDecoder {
     const std::uint32_t unit = length >> kSymbolShift;
     const unsigned found = model.find(value / unit);
     const std::uint32_t low = model.bounds[found] * unit;
-    const std::uint32_t high = found == model.last ? length : model.bounds[found + 1] * unit;
+    const std::uint32_t next = model.bounds[found + 1] * unit;
+    const std::uint32_t high = __builtin_expect_with_probability(found == model.last, 1, 0.5) ? length : next;
     value -= low;
     length = high - low;
     normalize();
@@ -85,7 +85,7 @@ struct ArithmeticDecoder {
 
   // Takes in whole bytes until the interval is 2^24 or longer. It never is empty: a symbol's share is 2^9 at least.
   [[gnu::always_inline]] void normalize() {
-    const unsigned shift = static_cast<unsigned>(std::countl_zero(length)) & 24u;
+    const unsigned shift = static_cast<unsigned>(__builtin_clz(length)) & 24u;
     const std::uint64_t next = std::uint64_t{value} << 32 | big_endian(at);
     value = static_cast<std::uint32_t>(next << shift >> 32);
     length <<= shift;

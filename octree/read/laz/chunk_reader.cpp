@@ -35,23 +35,50 @@ void ChunkReader::begin(const Chunk& chunk) {
   decoder_->begin(chunk);
 }
 
-void ChunkReader::read(std::size_t count, PointBatch& batch) {
+void ChunkReader::make_room(std::size_t count, PointBatch& batch) const {
   batch.positions.resize(count);
   batch.columns.resize(fields_.size());
   for (std::size_t c = 0; c < fields_.size(); ++c) {
     batch.columns[c].attribute = fields_[c].attribute;
     batch.columns[c].resize(count);
   }
+}
+
+// For the next block of a batch of `count` points, of which `first` are there.
+std::span<std::byte> ChunkReader::block_records(std::size_t first, std::size_t count) {
+  return std::span(records_).first(std::min(kBlockPoints, count - std::min(first, count)) * record_length_);
+}
+
+void ChunkReader::take_block(std::span<const std::byte> records, std::size_t first, PointBatch& batch) const {
+  const std::size_t count = records.size() / record_length_;
+  if (count == 0) return;
+  las::decode_positions(records, record_length_, std::span(batch.positions).subspan(first, count));
+  for (std::size_t c = 0; c < fields_.size(); ++c) {
+    const std::size_t each = fields_[c].attribute.bytes();
+    las::decode_field(fields_[c], records, record_length_,
+                      std::span(batch.columns[c].bytes).subspan(first * each, count * each));
+  }
+}
+
+void ChunkReader::read(std::size_t count, PointBatch& batch) {
+  make_room(count, batch);
   for (std::size_t first = 0; first < count; first += kBlockPoints) {
-    const std::size_t block = std::min(kBlockPoints, count - first);
-    const std::span<std::byte> records = std::span(records_).first(block * record_length_);
+    const std::span<std::byte> records = block_records(first, count);
     decoder_->decode(records);
-    las::decode_positions(records, record_length_, std::span(batch.positions).subspan(first, block));
-    for (std::size_t c = 0; c < fields_.size(); ++c) {
-      const std::size_t each = fields_[c].attribute.bytes();
-      las::decode_field(fields_[c], records, record_length_,
-                        std::span(batch.columns[c].bytes).subspan(first * each, block * each));
-    }
+    take_block(records, first, batch);
+  }
+}
+
+void ChunkReader::read_both(std::size_t count, PointBatch& batch, ChunkReader& other, std::size_t other_count,
+                            PointBatch& other_batch) {
+  make_room(count, batch);
+  other.make_room(other_count, other_batch);
+  for (std::size_t first = 0; first < std::max(count, other_count); first += kBlockPoints) {
+    const std::span<std::byte> records = block_records(first, count);
+    const std::span<std::byte> other_records = other.block_records(first, other_count);
+    decoder_->decode_both(records, *other.decoder_, other_records);
+    take_block(records, first, batch);
+    other.take_block(other_records, first, other_batch);
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "octree/cloud/source.h"
@@ -25,6 +26,10 @@ class ChunkReader {
   // Replaces the positions of `batch` by the next `count` of the chunk, no more in all than it has, and its columns by
   // those of `fields`. Throws Error naming chunk, point and byte when the data break off or contradict themselves.
   void read(std::size_t count, PointBatch& batch);
+  // As read() of both: `other` was made for the same file, format and fields, and has another chunk. Faster, see
+  // PointDecoder::decode_both().
+  void read_both(std::size_t count, PointBatch& batch, ChunkReader& other, std::size_t other_count,
+                 PointBatch& other_batch);
   // All points of a chunk, up to check_end(). A chunk that states more points than is plausible for its size is decoded
   // once before room is made for them.
   void read_chunk(const Chunk& chunk, PointBatch& batch);
@@ -35,6 +40,10 @@ class ChunkReader {
 
  private:
   void decode_through();
+  void make_room(std::size_t count, PointBatch& batch) const;
+  std::span<std::byte> block_records(std::size_t first, std::size_t count);
+  // The records of the block that begins with point `first` of the batch.
+  void take_block(std::span<const std::byte> records, std::size_t first, PointBatch& batch) const;
 
   const InputFile& file_;
   std::size_t record_length_;

@@ -47,9 +47,9 @@ struct CorrectionDecoder {
       const unsigned rest = k - kModelledBits;
       c = c << rest | decoder.bits(rest);
     }
-    // The lower half of a class are negative corrections
-    const bool positive = c >> (k - 1) & 1u;
-    return static_cast<std::int32_t>(positive ? c + 1u : c - ((1u << k) - 1u));
+    // The lower half of a class are negative corrections. Nobody can predict the sign: no jump depends on it
+    const std::uint32_t negative = ~c >> (k - 1) & 1u;
+    return static_cast<std::int32_t>(c + 1u - (negative << k));
   }
 };
 

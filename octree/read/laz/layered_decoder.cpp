@@ -70,6 +70,11 @@ class LayeredDecoder final : public PointDecoder {
 
   void begin(const Chunk& chunk) override;
   void decode(std::span<std::byte> records) override;
+  // Its streams already are worked on side by side.
+  void decode_both(std::span<std::byte> records, PointDecoder& other, std::span<std::byte> other_records) override {
+    decode(records);
+    other.decode(other_records);
+  }
   std::uint64_t end() override { return chunk_end_; }
 
  private:
@@ -96,7 +101,7 @@ class LayeredDecoder final : public PointDecoder {
                                           std::byte* out) {
     Stream& stream = streams_[layer];
     if (!stream.active) return false;
-    store(out + layers_[layer].first_byte, values.decode(stream.decoder, context));
+    store_item(out + layers_[layer].first_byte, values.decode(stream.decoder, context));
     return failed(stream);
   }
 
@@ -236,7 +241,7 @@ void LayeredDecoder::begin_layers() {
   const auto begin_item = [&]<class Models>(ItemLayer<Models>& item, std::size_t layer) {
     if (!streams_[layer].active) return;
     has_items_ = true;
-    item.begin(channel, load<typename Models::Value>(first + layers_[layer].first_byte), corrected);
+    item.begin(channel, load_item<typename Models::Value>(first + layers_[layer].first_byte), corrected);
   };
   begin_item(rgb_layer_, rgb_);
   begin_item(nir_layer_, nir_);

@@ -3,6 +3,8 @@
 // Source: LASzip specification, "POINT14", "RGB14", "RGBNIR14", "WAVEPACKET14", "BYTE14", versions 3 and 4.
 #pragma once
 
+#include <type_traits>
+
 #include "octree/read/laz/gps_time.h"
 #include "octree/read/laz/item_common.h"
 #include "octree/read/laz/return_context.h"
@@ -46,7 +48,7 @@ class ChannelStates {
  private:
   template <class... Args>
   [[gnu::noinline]] void prepare(unsigned channel, const Args&... last) {
-    if (!states_[channel]) states_[channel] = std::make_unique<State>();
+    if (!states_[channel]) states_[channel] = std::make_unique_for_overwrite<State>();
     states_[channel]->init(last...);
     ready_[channel] = true;
   }
@@ -145,17 +147,19 @@ inline unsigned ReturnsXyLayer::next_number(ArithmeticDecoder& decoder, State& s
   const unsigned median = kReturnContext16[last.count][last.number] * 2u + time_changed;
   const bool single = last.count == 1;
   const std::int32_t dx = state->dx.decode(decoder, state->x_steps[median].get(), single);
-  last.x = wrapping_add(last.x, dx);
+  const std::int32_t x = wrapping_add(last.x, dx);
+  last.x = x;
   state->x_steps[median].add(dx);
   const unsigned x_class = state->dx.correction_class();
   const std::int32_t dy =
       state->dy.decode(decoder, state->y_steps[median].get(), (x_class < 20 ? x_class & ~1u : 20u) + single);
-  last.y = wrapping_add(last.y, dy);
+  const std::int32_t y = wrapping_add(last.y, dy);
+  last.y = y;
   state->y_steps[median].add(dy);
   last.time_changed = time_changed;
 
-  store(out, last.x);
-  store(out + 4, last.y);
+  store(out, x);
+  store(out + 4, y);
   store(out + 14, static_cast<std::uint8_t>(last.count << 4 | last.number));
   store(out + 15, static_cast<std::uint8_t>((load<unsigned char>(out + 15) & 0xCFu) | channel_ << 4));
   const unsigned mean_class = (x_class + state->dy.correction_class()) / 2;
@@ -354,6 +358,22 @@ class GpsTimeLayer {
   ChannelStates<State> states_;
 };
 
+// Values as they stand in a record.
+template <class Value>
+Value load_item(const std::byte* at) {
+  if constexpr (std::is_same_v<Value, Colour>)
+    return Colour::load(at);
+  else
+    return load<Value>(at);
+}
+template <class Value>
+[[gnu::always_inline]] inline void store_item(std::byte* at, const Value& value) {
+  if constexpr (std::is_same_v<Value, Colour>)
+    value.store(at);
+  else
+    store(at, value);
+}
+
 // The models of colours and what follows them belong to channels, too, but version 3 of the format takes channel 0 for
 // every point whose channel is that of the point before, and goes on with the last value of another channel. That was a
 // mistake of its writer; files are made so, and version 4 came to correct it.
@@ -403,7 +423,7 @@ class ItemLayer {
 };
 
 struct RgbModels {
-  using Value = std::array<std::uint16_t, 3>;
+  using Value = Colour;
   ColourModels models;
   void init() { models.init(); }
   [[gnu::always_inline]] void decode(ArithmeticDecoder& decoder, Value& last) { last = models.decode(decoder, last); }

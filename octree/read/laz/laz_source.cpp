@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "octree/core/error.h"
@@ -16,22 +17,46 @@ namespace {
 
 constexpr std::uint64_t kMaxBatchPoints = 65'536;
 
+// Chunks are decoded two at a time when there are more than these for every thread.
+constexpr std::size_t kChunksForPairs = 4;
+
 // What one thread reuses from chunk to chunk.
 struct Workspace {
   laz::ChunkReader reader;
   PointBatch batch;
+  const laz::Chunk* chunk = nullptr;
+  std::uint64_t done = 0;  // points of the chunk
+
+  void begin(const laz::Chunk& begun) {
+    chunk = &begun;
+    done = 0;
+    reader.begin(begun);
+  }
+  // Points of the next batch.
+  std::size_t next() const { return static_cast<std::size_t>(std::min(kMaxBatchPoints, chunk->points - done)); }
+  void deliver(const BatchConsumer& consume) {
+    batch.first = chunk->first + done;
+    done += batch.positions.size();
+    // A consumer that waits for tasks of its own must not be handed another batch in the workspace it still reads.
+    if (!batch.positions.empty()) tbb::this_task_arena::isolate([&] { consume(batch); });
+  }
 };
 
 // All points of a chunk.
 void deliver(const laz::Chunk& chunk, Workspace& workspace, const BatchConsumer& consume) {
-  workspace.reader.begin(chunk);
-  for (std::uint64_t done = 0; done < chunk.points;) {
-    const std::uint64_t count = std::min(kMaxBatchPoints, chunk.points - done);
-    workspace.batch.first = chunk.first + done;
-    workspace.reader.read(static_cast<std::size_t>(count), workspace.batch);
-    // A consumer that waits for tasks of its own must not be handed another batch in the workspace it still reads.
-    tbb::this_task_arena::isolate([&] { consume(workspace.batch); });
-    done += count;
+  workspace.begin(chunk);
+  while (workspace.next() > 0) {
+    workspace.reader.read(workspace.next(), workspace.batch);
+    workspace.deliver(consume);
+  }
+}
+
+// All points of two chunks.
+void deliver(std::span<const laz::Chunk, 2> chunks, std::array<Workspace, 2>& pair, const BatchConsumer& consume) {
+  for (std::size_t i = 0; i < 2; ++i) pair[i].begin(chunks[i]);
+  while (pair[0].next() + pair[1].next() > 0) {
+    pair[0].reader.read_both(pair[0].next(), pair[0].batch, pair[1].reader, pair[1].next(), pair[1].batch);
+    for (Workspace& workspace : pair) workspace.deliver(consume);
   }
 }
 
@@ -74,16 +99,27 @@ void LazSource::read(std::span<const std::size_t> attributes, const BatchConsume
 }
 
 void LazSource::read_chunks(const std::vector<las::Field>& fields, const BatchConsumer& consume) const {
-  tbb::enumerable_thread_specific<Workspace> workspaces([&] {
-    return Workspace{laz::ChunkReader(file_, format_, fields), {}};
+  const auto make = [&] { return Workspace{laz::ChunkReader(file_, format_, fields), {}}; };
+  tbb::enumerable_thread_specific<std::array<Workspace, 2>> workspaces([&] {
+    return std::array<Workspace, 2>{make(), make()};
   });
+  const std::span<const laz::Chunk> chunks = table_.chunks;
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const bool in_pairs = format_.compressor == laz::Compressor::chunked && chunks.size() > kChunksForPairs * threads;
+  const std::size_t step = in_pairs ? 2 : 1;
   // Tasks split the work from its ends; a shared counter makes the disk see it from front to back.
   std::atomic<std::size_t> next{0};
-  tbb::parallel_for(std::size_t{0}, table_.chunks.size(), [&](std::size_t) {
-    Workspace& workspace = workspaces.local();
-    deliver(table_.chunks[next.fetch_add(1)], workspace, consume);
+  tbb::parallel_for(std::size_t{0}, (chunks.size() + step - 1) / step, [&](std::size_t) {
+    std::array<Workspace, 2>& pair = workspaces.local();
+    const std::size_t first = next.fetch_add(step);
+    const std::size_t count = std::min(step, chunks.size() - first);
+    if (count == 2)
+      deliver(chunks.subspan(first).first<2>(), pair, consume);
+    else
+      deliver(chunks[first], pair[0], consume);
     // Where a file that is not chunked ends, it does not say
-    if (format_.compressor != laz::Compressor::pointwise) workspace.reader.check_end();
+    if (format_.compressor == laz::Compressor::pointwise) return;
+    for (std::size_t i = 0; i < count; ++i) pair[i].reader.check_end();
   });
 }
 

@@ -25,7 +25,7 @@ class LazSource : public PointSource {
 
   const SourceInfo& info() const override { return info_; }
 
-  // Batches of at most 65,536 points of one chunk, begun in file order; a core decodes a whole chunk. Files that are
+  // Batches of at most 65,536 points of one chunk, begun in file order; a core decodes whole chunks. Files that are
   // not chunked are decoded on one. Memory: a few MiB a core, and of point formats 6 to 10 the layers of a chunk.
   // Throws std::out_of_range for an index that is none of the schema.
   void read(std::span<const std::size_t> attributes, const BatchConsumer& consume) const override;

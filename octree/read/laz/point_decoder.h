@@ -26,6 +26,9 @@ class PointDecoder {
   // Fills `records` with the next points of the chunk, records of the format's record_length. No more in all than the
   // chunk has. Throws Error naming chunk, point and byte when the data break off or are what no encoder writes.
   virtual void decode(std::span<std::byte> records) = 0;
+  // As decode() of both: `other` was made for the same file, format and fields, and has another chunk. Streams depend
+  // on themselves alone, so that a processor that works on two at once waits less.
+  virtual void decode_both(std::span<std::byte> records, PointDecoder& other, std::span<std::byte> other_records) = 0;
   // To be called behind the last point. Returns the byte of the file at which the chunk ended, which is known only then
   // when there is no table of chunks.
   virtual std::uint64_t end() = 0;

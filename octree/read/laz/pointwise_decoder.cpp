@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <vector>
+#include <algorithm>
+#include <utility>
 
 #include "octree/read/laz/pointwise_items.h"
 #include "octree/read/laz/pointwise_items_v1.h"
@@ -29,7 +30,6 @@ std::size_t longest_point(const Format& format) {
   return 256 + 8 * format.record_length + ArithmeticDecoder::kReadAhead;
 }
 
-// Which items a point has is known when the loop over points is compiled: kTime, kRgb.
 template <class Version>
 class PointwiseDecoder final : public PointDecoder {
  public:
@@ -37,7 +37,8 @@ class PointwiseDecoder final : public PointDecoder {
       : path_(file.path()), format_(format), input_(file, longest_point(format)) {
     if (const Item* item = format.find(ItemType::wave_packet13)) wave_offset_ = item->offset;
     if (const Item* item = format.find(ItemType::bytes)) extra_offset_ = item->offset;
-    if (const Item* item = format.find(ItemType::rgb12)) rgb_offset_ = item->offset;
+    has_time_ = format.find(ItemType::gps_time11) != nullptr;
+    has_rgb_ = format.find(ItemType::rgb12) != nullptr;
     if (wave_offset_ != 0) wave_ = std::make_unique<WavePacketDecoder>();
   }
 
@@ -53,19 +54,18 @@ class PointwiseDecoder final : public PointDecoder {
   }
 
   void decode(std::span<std::byte> records) override {
-    std::size_t count = records.size() / format_.record_length;
-    std::byte* out = records.data();
-    if (done_ == 0 && count > 0) {
-      begin_items(out);
-      out += format_.record_length;
-      --count;
-    }
-    const bool time = format_.find(ItemType::gps_time11) != nullptr;
-    const bool rgb = rgb_offset_ != 0;
-    if (time)
-      rgb ? decode_points<true, true>(out, count) : decode_points<true, false>(out, count);
-    else
-      rgb ? decode_points<false, true>(out, count) : decode_points<false, false>(out, count);
+    const Lane lane = take_up(records);
+    run(lane.count, lane);
+  }
+
+  void decode_both(std::span<std::byte> records, PointDecoder& other, std::span<std::byte> other_records) override {
+    auto& partner = static_cast<PointwiseDecoder&>(other);
+    Lane lane = take_up(records);
+    Lane other_lane = partner.take_up(other_records);
+    const std::size_t both = std::min(lane.count, other_lane.count);
+    run(both, lane, other_lane);
+    decode(records.last((lane.count - both) * format_.record_length));
+    partner.decode(other_records.last((other_lane.count - both) * format_.record_length));
   }
 
   std::uint64_t end() override { return input_.file_offset(decoder_.at); }
@@ -75,8 +75,8 @@ class PointwiseDecoder final : public PointDecoder {
     const std::byte* const first = input_.data();
     std::memcpy(out, first, format_.record_length);
     point_.begin(first);
-    if (format_.find(ItemType::gps_time11)) time_.begin(first + Version::Point::kSize);
-    if (rgb_offset_ != 0) rgb_.begin(first + rgb_offset_);
+    if (has_time_) time_.begin(first + Version::Point::kSize);
+    if (has_rgb_) rgb_.begin(first + Version::Point::kSize + (has_time_ ? Version::Time::kSize : 0));
     if (wave_) {
       wave_->init();
       std::memcpy(packet_.data(), first + wave_offset_, packet_.size());
@@ -86,26 +86,72 @@ class PointwiseDecoder final : public PointDecoder {
     done_ = 1;
   }
 
-  template <bool kTime, bool kRgb>
-  void decode_points(std::byte* out, std::size_t count) {
-    ArithmeticDecoder decoder = decoder_;  // a copy that lives in registers
-    const std::byte* limit = input_.limit();
-    for (std::size_t i = 0; i < count; ++i, out += format_.record_length) {
-      point_.decode(decoder, out);
-      if constexpr (kTime) time_.decode(decoder, out + Version::Point::kSize);
-      if constexpr (kRgb) rgb_.decode(decoder, out + Version::Point::kSize + (kTime ? Version::Time::kSize : 0));
-      if (wave_) {
-        wave_->decode(decoder, packet_);
-        std::memcpy(out + wave_offset_, packet_.data(), packet_.size());
-      }
-      if (extra_offset_ != 0) extra_.decode(decoder, out + extra_offset_);
-      if (decoder.at > limit || decoder.broken != 0) [[unlikely]] {
-        decoder.at = go_on(decoder, done_ + i);
-        limit = input_.limit();
-      }
+  // What the loop over points keeps of a chunk in registers.
+  struct Lane {
+    PointwiseDecoder* self;
+    std::byte* out;
+    std::size_t count;  // points to decode
+    ArithmeticDecoder decoder;
+    const std::byte* limit;
+    typename Version::Point::Context context;
+  };
+
+  Lane take_up(std::span<std::byte> records) {
+    Lane lane{this, records.data(), records.size() / format_.record_length, {}, nullptr, {}};
+    if (done_ == 0 && lane.count > 0) {
+      begin_items(lane.out);
+      lane.out += format_.record_length;
+      --lane.count;
     }
-    decoder_ = decoder;
-    done_ += count;
+    lane.decoder = decoder_;
+    lane.limit = input_.limit();
+    return lane;
+  }
+
+  // Decodes `count` points of every lane.
+  template <class... Lanes>
+  void run(std::size_t count, const Lanes&... lanes) {
+    if (has_time_)
+      has_rgb_ ? run_items<true, true>(count, lanes...) : run_items<true, false>(count, lanes...);
+    else
+      has_rgb_ ? run_items<false, true>(count, lanes...) : run_items<false, false>(count, lanes...);
+  }
+
+  // The lanes take turns, step by step: a step waits for the one before, and what another chunk needs does not.
+  template <bool kTime, bool kRgb, class... Lanes>
+  static void run_items(std::size_t count, Lanes... lanes) {
+    constexpr std::size_t kTimeAt = Version::Point::kSize;
+    constexpr std::size_t kRgbAt = kTimeAt + (kTime ? Version::Time::kSize : 0);
+    for (std::size_t i = 0; i < count; ++i) {
+      point_steps(std::make_integer_sequence<unsigned, Version::Point::kSteps>{}, lanes...);
+      if constexpr (kTime) (lanes.self->time_.decode(lanes.decoder, lanes.out + kTimeAt), ...);
+      if constexpr (kRgb) (lanes.self->rgb_.decode(lanes.decoder, lanes.out + kRgbAt), ...);
+      (lanes.self->finish_point(lanes, i), ...);
+    }
+    ((lanes.self->decoder_ = lanes.decoder), ...);
+    ((lanes.self->done_ += count), ...);
+  }
+
+  template <unsigned... kSteps, class... Lanes>
+  [[gnu::always_inline]] static void point_steps(std::integer_sequence<unsigned, kSteps...>, Lanes&... lanes) {
+    (point_step<kSteps>(lanes...), ...);
+  }
+  template <unsigned kStep, class... Lanes>
+  [[gnu::always_inline]] static void point_step(Lanes&... lanes) {
+    (lanes.self->point_.template decode<kStep>(lanes.decoder, lanes.context, lanes.out), ...);
+  }
+
+  [[gnu::always_inline]] void finish_point(Lane& lane, std::size_t index) {
+    if (wave_) {
+      wave_->decode(lane.decoder, packet_);
+      std::memcpy(lane.out + wave_offset_, packet_.data(), packet_.size());
+    }
+    if (extra_offset_ != 0) extra_.decode(lane.decoder, lane.out + extra_offset_);
+    if (lane.decoder.at > lane.limit || lane.decoder.broken != 0) [[unlikely]] {
+      lane.decoder.at = go_on(lane.decoder, done_ + index);
+      lane.limit = input_.limit();
+    }
+    lane.out += format_.record_length;
   }
 
   // Moves the window on. `point` is the one just decoded, counted in the chunk.
@@ -122,9 +168,10 @@ class PointwiseDecoder final : public PointDecoder {
   const Format format_;
   ChunkInput input_;
   Chunk chunk_;
-  std::uint64_t done_ = 0;      // points of the chunk
-  std::size_t rgb_offset_ = 0;  // in a record; 0: none
-  std::size_t wave_offset_ = 0;
+  std::uint64_t done_ = 0;  // points of the chunk
+  bool has_time_ = false;
+  bool has_rgb_ = false;
+  std::size_t wave_offset_ = 0;  // in a record; 0: none
   std::size_t extra_offset_ = 0;
 
   ArithmeticDecoder decoder_;

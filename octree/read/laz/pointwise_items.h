@@ -23,7 +23,6 @@ class Point10 {
     for (auto& median : y_steps_) median.init();
     intensities_ = {};
     heights_ = {};
-    last_.intensity = 0;
     changed_.init();
     intensity_.init();
     for (auto& model : angles_) model.init();
@@ -36,37 +35,29 @@ class Point10 {
     z_.init();
   }
 
-  [[gnu::always_inline]] void decode(ArithmeticDecoder& decoder, std::byte* out) {
-    const unsigned changed = decoder.symbol(changed_);
-    if (changed & kFlags) last_.flags = static_cast<std::uint8_t>(decoder.symbol(flags_[last_.flags]));
-    const unsigned number = last_.flags & 7u;
-    const unsigned count = last_.flags >> 3 & 7u;
-    const unsigned context = kReturnContext8[count][number];
-    if (changed & kIntensity)
-      intensities_[context] =
-          static_cast<std::uint16_t>(intensity_.decode(decoder, intensities_[context], std::min(context, 3u)));
-    last_.intensity = intensities_[context];
-    if (changed & (kClass | kAngle | kUserData | kSource)) decode_rare(decoder, changed);
+  // A point is decoded in steps, in this order, so that a loop can do something else in between.
+  static constexpr unsigned kSteps = 4;
+  // What one step leaves to the next.
+  struct Context {
+    unsigned returns;
+    unsigned level;
+    bool single;
+  };
 
-    const bool single = count == 1;
-    const std::int32_t dx = dx_.decode(decoder, x_steps_[context].get(), single);
-    last_.x = wrapping_add(last_.x, dx);
-    x_steps_[context].add(dx);
-
-    const unsigned x_class = dx_.correction_class();
-    const std::int32_t dy = dy_.decode(decoder, y_steps_[context].get(), (x_class < 20 ? x_class & ~1u : 20u) + single);
-    last_.y = wrapping_add(last_.y, dy);
-    y_steps_[context].add(dy);
-
-    const unsigned mean_class = (x_class + dy_.correction_class()) / 2;
-    std::int32_t& height = heights_[return_level(count, number)];
-    height = z_.decode(decoder, height, (mean_class < 18 ? mean_class & ~1u : 18u) + single);
-    last_.z = height;
-    store(out, last_);
+  template <unsigned kStep>
+  [[gnu::always_inline]] void decode(ArithmeticDecoder& decoder, Context& context, std::byte* out) {
+    if constexpr (kStep == 0)
+      decode_changes(decoder, context, out);
+    else if constexpr (kStep == 1)
+      decode_x(decoder, context, out);
+    else if constexpr (kStep == 2)
+      decode_y(decoder, context, out);
+    else
+      decode_z(decoder, context, out);
   }
 
  private:
-  // A record's first bytes
+  // A record's first bytes. Of z and intensity, only those of the first point
   struct Fields {
     std::int32_t x, y, z;
     std::uint16_t intensity;
@@ -79,6 +70,50 @@ class Point10 {
   static_assert(sizeof(Fields) == kSize);
 
   enum : unsigned { kSource = 1, kUserData = 2, kAngle = 4, kClass = 8, kIntensity = 16, kFlags = 32 };
+
+  // Each step writes what it decoded: the whole of last_, read back after it was written in parts, would have to wait.
+  [[gnu::always_inline]] void decode_changes(ArithmeticDecoder& decoder, Context& context, std::byte* out) {
+    const unsigned changed = decoder.symbol(changed_);
+    if (changed & kFlags) last_.flags = static_cast<std::uint8_t>(decoder.symbol(flags_[last_.flags]));
+    const unsigned number = last_.flags & 7u;
+    const unsigned count = last_.flags >> 3 & 7u;
+    context = {kReturnContext8[count][number], return_level(count, number), count == 1};
+    std::uint16_t intensity = intensities_[context.returns];
+    if (changed & kIntensity)
+      intensity = static_cast<std::uint16_t>(intensity_.decode(decoder, intensity, std::min(context.returns, 3u)));
+    intensities_[context.returns] = intensity;
+    if (changed & (kClass | kAngle | kUserData | kSource)) decode_rare(decoder, changed);
+    store(out + 12, intensity);
+    store(out + 14, last_.flags);
+    std::memcpy(out + 15, reinterpret_cast<const std::byte*>(&last_) + 15, kSize - 15);
+  }
+
+  [[gnu::always_inline]] void decode_x(ArithmeticDecoder& decoder, const Context& context, std::byte* out) {
+    Median& steps = x_steps_[context.returns];
+    const std::int32_t step = dx_.decode(decoder, steps.get(), context.single);
+    const std::int32_t x = wrapping_add(last_.x, step);
+    steps.add(step);
+    last_.x = x;
+    store(out, x);
+  }
+
+  [[gnu::always_inline]] void decode_y(ArithmeticDecoder& decoder, const Context& context, std::byte* out) {
+    const unsigned x_class = dx_.correction_class();
+    Median& steps = y_steps_[context.returns];
+    const std::int32_t step = dy_.decode(decoder, steps.get(), (x_class < 20 ? x_class & ~1u : 20u) + context.single);
+    const std::int32_t y = wrapping_add(last_.y, step);
+    steps.add(step);
+    last_.y = y;
+    store(out + 4, y);
+  }
+
+  [[gnu::always_inline]] void decode_z(ArithmeticDecoder& decoder, const Context& context, std::byte* out) {
+    const unsigned mean_class = (dx_.correction_class() + dy_.correction_class()) / 2;
+    std::int32_t& height = heights_[context.level];
+    const std::int32_t z = z_.decode(decoder, height, (mean_class < 18 ? mean_class & ~1u : 18u) + context.single);
+    height = z;
+    store(out + 8, z);
+  }
 
   void decode_rare(ArithmeticDecoder& decoder, unsigned changed) {
     if (changed & kClass)
@@ -118,18 +153,17 @@ class GpsTime11 {
 
 class Rgb12 {
  public:
-  static constexpr std::size_t kSize = 6;
+  static constexpr std::size_t kSize = Colour::kSize;
   void begin(const std::byte* first) {
-    last_ = load<Colour>(first);
+    last_ = Colour::load(first);
     models_.init();
   }
   [[gnu::always_inline]] void decode(ArithmeticDecoder& decoder, std::byte* out) {
     last_ = models_.decode(decoder, last_);
-    store(out, last_);
+    last_.store(out);
   }
 
  private:
-  using Colour = std::array<std::uint16_t, 3>;
   Colour last_;
   ColourModels models_;
 };

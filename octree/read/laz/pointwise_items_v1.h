@@ -28,7 +28,11 @@ class Point10V1 {
     user_data_.forget();
   }
 
-  void decode(ArithmeticDecoder& decoder, std::byte* out) {
+  static constexpr unsigned kSteps = 1;
+  struct Context {};
+
+  template <unsigned kStep>
+  void decode(ArithmeticDecoder& decoder, Context&, std::byte* out) {
     const std::int32_t dx = dx_.decode(decoder, median(x_steps_));
     last_.x = wrapping_add(last_.x, dx);
     const unsigned x_class = dx_.correction_class();

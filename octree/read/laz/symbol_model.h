@@ -9,7 +9,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -41,8 +40,8 @@ template <unsigned kCount>
     const __m128i high = first + 8 < kCount ? at_most(first + 8) : _mm_setzero_si128();
     mask |= static_cast<std::uint64_t>(_mm_movemask_epi8(_mm_packs_epi16(low, high))) << first;
   }
-  // The bounds ascend, so the ones stand below the zeros
-  return static_cast<unsigned>(std::countr_one(mask));
+  // The bounds ascend, so the ones stand below the zeros, of which there are some: std::countr_one() would ask
+  return static_cast<unsigned>(__builtin_ctzll(~mask));
 #else
   unsigned count = 0;
   for (unsigned i = 0; i < kCount; ++i) count += bounds[i] <= place;
