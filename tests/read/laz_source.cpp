@@ -2,6 +2,7 @@
 #include "octree/read/laz/laz_source.h"
 
 #include "octree/read/las/las_source.h"
+#include "octree/read/laz/chunk_reader.h"
 #include "tests/read/laz_fixture.h"
 
 namespace stipple {
@@ -89,6 +90,46 @@ TEST(LazSource, BatchesAreDisjointAndWhole) {
     for (std::size_t i = 0; i < batch.positions.size(); ++i) ++seen.at(batch.first + i);
   });
   for (const auto& times : seen) EXPECT_EQ(times, 1);
+}
+
+TEST_P(LazTwins, ChunksDecodedSideBySideAreTheSame) {
+  const std::string path = (kLazData / (GetParam() + std::string(".laz"))).string();
+  const InputFile file(path);
+  const las::Header header = las::parse_header(file.map().bytes(), path);
+  const laz::Format format = laz::read_format(file.map().bytes(), header, path);
+  Strings warnings;
+  const auto chunks = laz::read_chunk_table(file, header, format, warnings).chunks;
+  const Cloud expected = load_laz(GetParam() + std::string(".las"));
+
+  // The second of each pair is taken in other pieces than the first
+  laz::ChunkReader a(file, format, header.fields), b(file, format, header.fields);
+  PointBatch batch_a, batch_b;
+  const laz::Chunk& chunk_a = chunks.front();
+  const laz::Chunk& chunk_b = chunks.back();
+  a.begin(chunk_a);
+  b.begin(chunk_b);
+  std::size_t done_a = 0, done_b = 0;
+  bool odd = false;
+  const auto expect_points = [&](const PointBatch& batch, std::size_t first) {
+    for (std::size_t i = 0; i < batch.positions.size(); ++i)
+      ASSERT_EQ(batch.positions[i], expected.positions[first + i]);
+    for (std::size_t c = 0; c < batch.columns.size(); ++c)
+      ASSERT_TRUE(std::ranges::equal(batch.columns[c].bytes, std::span(expected.columns[c].bytes)
+                                                                 .subspan(first * expected.columns[c].attribute.bytes(),
+                                                                          batch.columns[c].bytes.size())));
+  };
+  while (done_a < chunk_a.points || done_b < chunk_b.points) {
+    const std::size_t count_a = std::min<std::size_t>(100, chunk_a.points - done_a);
+    const std::size_t count_b = std::min<std::size_t>(odd ? 300 : 0, chunk_b.points - done_b);
+    a.read_both(count_a, batch_a, b, count_b, batch_b);
+    expect_points(batch_a, chunk_a.first + done_a);
+    expect_points(batch_b, chunk_b.first + done_b);
+    done_a += count_a;
+    done_b += count_b;
+    odd = !odd;
+  }
+  a.check_end();
+  b.check_end();
 }
 
 TEST(LazSource, AnUncompressedFileIsNone) {
