@@ -283,7 +283,7 @@ TEST(OpenSource, AnUnknownFileIsNamedWithItsFirstBytesAndWhatIsRead) {
   const std::string message = error_of([&] { open_source(folder.write("picture.las", bytes)); });
   EXPECT_TRUE(contains(message, folder.path("picture.las")));
   EXPECT_TRUE(contains(message, "50 4e 47 00 89 20 61 6e (PNG.. an)"));
-  EXPECT_TRUE(contains(message, "uncompressed LAS 1.0-1.5, point formats 0-10"));
+  EXPECT_TRUE(contains(message, "LAS and LAZ 1.0-1.5, point formats 0-10"));
 }
 
 }  // namespace
