@@ -7,7 +7,6 @@
 #include <cmath>
 #include <deque>
 #include <exception>
-#include <map>
 
 #include "octree/core/error.h"
 
@@ -15,28 +14,6 @@ namespace stipple {
 namespace {
 
 using Piece = TreeStore::HierarchyPiece;
-
-// The pieces read so far by their place. Disjoint pieces end where the file does.
-class PiecesRead {
- public:
-  explicit PiecesRead(const std::string& path) : path_(path) {}
-
-  void add(const Piece::Continuation& where, const StoredNode& node) {
-    // A piece of no bytes is for the store to refuse
-    const std::uint64_t end = where.piece + std::max<std::uint64_t>(where.piece_size, 1);
-    const auto next = ends_.lower_bound(where.piece + 1);
-    if (end < where.piece || (next != ends_.end() && next->second < end))
-      throw file_error(path_, where.piece,
-                       fmt::format("the hierarchy piece of node {} holds bytes of another piece; every node was "
-                                   "expected once. The file is damaged; build or copy the tree again.",
-                                   name_of(node)));
-    ends_[end] = where.piece;
-  }
-
- private:
-  const std::string& path_;
-  std::map<std::uint64_t, std::uint64_t> ends_;  // first byte of the piece that ends there
-};
 
 // Pieces that are known of and not read yet; `node` counts in the whole tree.
 using Pending = std::deque<Piece::Continuation>;
@@ -64,6 +41,21 @@ void append_piece(std::vector<StoredNode>& tree, std::uint32_t root, const Piece
 }
 
 }  // namespace
+
+PiecesRead::PiecesRead(const TreeStore& store) : store_(store) {}
+
+void PiecesRead::add(const Piece::Continuation& where, const StoredNode& node) {
+  if (store_.info().node_files) return;  // a piece with a file of its own is its node's alone
+  // A piece of no bytes is for the store to refuse
+  const std::uint64_t end = where.piece + std::max<std::uint64_t>(where.piece_size, 1);
+  const auto next = ends_.lower_bound(where.piece + 1);
+  if (end < where.piece || (next != ends_.end() && next->second < end))
+    throw file_error(store_.info().source.path, where.piece,
+                     fmt::format("the hierarchy piece of node {} holds bytes of another piece; every node was "
+                                 "expected once. The file is damaged; build or copy the tree again.",
+                                 name_of(node)));
+  ends_[end] = where.piece;
+}
 
 std::string name_of(const StoredNode& node) {
   std::string name = "r";
@@ -93,13 +85,12 @@ std::vector<StoredNode> read_whole_hierarchy(const TreeStore& store) {
   if (first.nodes.empty()) return tree;
   tree.emplace_back();
   Pending pending;
-  PiecesRead read(store.info().source.path);
+  PiecesRead read(store);
   append_piece(tree, 0, first, pending);
   while (!pending.empty()) {
     const Piece::Continuation next = pending.front();
     pending.pop_front();
-    // A piece with a file of its own is its node's alone
-    if (!store.info().node_files) read.add(next, tree[next.node]);
+    read.add(next, tree[next.node]);
     append_piece(tree, next.node, store.read_piece(next, tree[next.node]), pending);
   }
   return tree;
@@ -141,20 +132,26 @@ std::vector<StoredNode> in_store_order(const TreeStore& store, std::span<const S
 std::vector<StoredNode> uppermost_nodes(const TreeStore& store) {
   std::vector<StoredNode> found;
   std::deque<Piece> pieces{store.root_piece()};
+  PiecesRead read(store);
   int level = kMaxStoredLevel;
   while (!pieces.empty()) {
     const Piece piece = std::move(pieces.front());
     pieces.pop_front();
+    std::vector<bool> continued(piece.nodes.size());
+    for (const Piece::Continuation& next : piece.continued) continued[next.node] = true;
     for (std::uint32_t i = 0; i < piece.nodes.size() && piece.nodes[i].level <= level; ++i) {
-      if (std::ranges::find(piece.continued, i, &Piece::Continuation::node) != piece.continued.end()) continue;
+      if (continued[i]) continue;
       const StoredNode node = store.locate(piece.nodes[i]);
       if (node.points == 0) continue;
       if (node.level < level) found.clear();
       level = node.level;
       found.push_back(node);
     }
-    for (const Piece::Continuation& next : piece.continued)
-      if (piece.nodes[next.node].level <= level) pieces.push_back(store.read_piece(next, piece.nodes[next.node]));
+    for (const Piece::Continuation& next : piece.continued) {
+      if (piece.nodes[next.node].level > level) continue;
+      read.add(next, piece.nodes[next.node]);
+      pieces.push_back(store.read_piece(next, piece.nodes[next.node]));
+    }
   }
   return found;
 }

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -140,8 +141,21 @@ class TreeStore {
   mutable std::atomic<std::uint64_t> bytes_read_{0};
 };
 
-// The whole hierarchy in memory, pieces joined, parents before children. Throws Error when pieces overlap, which would
-// let a small file describe a tree without end.
+// The pieces of a hierarchy read so far. Disjoint pieces end where the file does; others would let a small file
+// describe a tree without end.
+class PiecesRead {
+ public:
+  explicit PiecesRead(const TreeStore& store);  // which has to live as long
+
+  // Throws Error when the piece of `node` shares bytes with one that was added before.
+  void add(const TreeStore::HierarchyPiece::Continuation& where, const StoredNode& node);
+
+ private:
+  const TreeStore& store_;
+  std::map<std::uint64_t, std::uint64_t> ends_;  // first byte of the piece that ends there
+};
+
+// The whole hierarchy in memory, pieces joined, parents before children. Throws Error when pieces overlap.
 std::vector<StoredNode> read_whole_hierarchy(const TreeStore& store);
 
 // The nodes of a hierarchy, located on all cores. Throws the Error of the first, in their order, that cannot be.

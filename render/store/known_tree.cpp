@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "octree/core/error.h"
+
 namespace stipple {
 
 WorldBox generous_cell(const TreeInfo& info, const StoredNode& node) {
@@ -12,7 +14,7 @@ WorldBox generous_cell(const TreeInfo& info, const StoredNode& node) {
   return box;
 }
 
-KnownTree::KnownTree(std::shared_ptr<const TreeStore> store) : store_(std::move(store)) {
+KnownTree::KnownTree(std::shared_ptr<const TreeStore> store) : store_(std::move(store)), read_(*store_) {
   const TreeStore::HierarchyPiece first = store_->root_piece();
   if (first.nodes.empty()) return;
   nodes_.push_back({first.nodes.front()});
@@ -98,6 +100,12 @@ void KnownTree::take(Lookup& lookup) {
   node.asked = false;
   if (lookup.failure) return;
   if (lookup.node.knowledge == Knowledge::continued) {
+    try {
+      read_.add(lookup.node.where, lookup.node.stored);
+    } catch (const Error&) {
+      lookup.failure = std::current_exception();
+      return;
+    }
     ++pieces_;
     take_piece(lookup.index, lookup.piece);
     return;

@@ -69,7 +69,7 @@ class KnownTree {
   void forget(const Lookup& lookup) { nodes_[lookup.index].asked = false; }
   // Reads what is asked for, a failure included. Any thread.
   void run(Lookup& lookup) const;
-  // Learns from a lookup that was run; nothing from one that failed.
+  // Learns from a lookup that was run; nothing from one that failed. A piece that was there before is a failure.
   void take(Lookup& lookup);
 
   // Pieces of the hierarchy that were taken after the first.
@@ -79,6 +79,7 @@ class KnownTree {
   void take_piece(std::uint32_t index, const TreeStore::HierarchyPiece& piece);
 
   std::shared_ptr<const TreeStore> store_;
+  PiecesRead read_;
   std::vector<Node> nodes_;  // the root first
   std::unordered_map<std::uint32_t, NodeDetails> details_;
   std::uint64_t pieces_ = 0;

@@ -153,6 +153,22 @@ TEST(TreeSupplyOnDisk, APieceThatCannotBeReadIsAnErrorOfTheViewThatSeesIt) {
   EXPECT_TRUE(contains(error_of([&] { finish(*supply); }), "data/r/7/r7.hrc: there is no such file"));
 }
 
+TEST(TreeSupplyOnDisk, APieceThatLeadsBackIsAnErrorNotATreeWithoutEnd) {
+  const ScratchFolder folder;
+  TreeFiles files = TreeFiles::usual();
+  files.nodes["r"].clear();
+  files.write(folder);
+  Bytes hierarchy = files.hierarchy();
+  // The proxy of child 0 leads to the root's piece
+  put(hierarchy, 22 + 6, std::uint64_t{0});
+  put(hierarchy, 22 + 14, std::uint64_t{88});
+  folder.write("hierarchy.bin", hierarchy);
+  EXPECT_TRUE(contains(error_of([&] { read_whole_hierarchy(*open_tree(folder.path(""))); }), "of another piece"));
+  const auto supply = supply_of(folder.path(""));
+  supply->visible(from_above(kPlaneCube, 4.0, {0.5, 0.5}));
+  EXPECT_TRUE(contains(error_of([&] { finish(*supply); }), "of another piece"));
+}
+
 TEST(TreeSupplyOnDisk, EveryNodeHasIdsOfItsOwn) {
   std::set<std::uint32_t> ids;
   StoredNode node;
