@@ -17,13 +17,13 @@ using test::Bytes;
 using test::contains;
 using test::error_of;
 using test::get;
-using test::kLazData;
+using test::laz_file;
 using test::load_all;
 using test::put;
 using test::ScratchFolder;
 
 const std::filesystem::path kData = STIPPLE_SHARED_DATA;
-const std::filesystem::path kSmall = kLazData / "autzen.copc.laz";
+const std::filesystem::path kSmall = laz_file("autzen.copc.laz");
 
 constexpr std::size_t kInfo = 375 + 54;  // body of the record, first behind the header
 constexpr std::size_t kRootPage = kInfo + 40;
@@ -55,10 +55,12 @@ void expect_the_points_of_the_file(const std::string& path) {
 }
 
 TEST(CopcStore, HoldsThePointsOfTheFile) {
+  SKIP_WITHOUT_LAZ_FILES();
   expect_the_points_of_the_file(kSmall);
 }
 
 TEST(CopcStore, InfoIsThatOfTheRecords) {
+  SKIP_WITHOUT_LAZ_FILES();
   const CopcStore store(kSmall);
   const TreeInfo& info = store.info();
   EXPECT_EQ(info.source.version, "1.0");
@@ -71,18 +73,21 @@ TEST(CopcStore, InfoIsThatOfTheRecords) {
 }
 
 TEST(CopcStore, OpeningReadsTheHeaderAndTheFirstPage) {
+  SKIP_WITHOUT_LAZ_FILES();
   const CopcStore store(kSmall);
   const Bytes bytes = test::bytes_of(kSmall);
   EXPECT_EQ(store.bytes_read(), get<std::uint32_t>(bytes, 96) + get<std::uint64_t>(bytes, kRootPageBytes));
 }
 
 TEST(CopcStore, IsToldFromOtherLazByItsFirstRecord) {
+  SKIP_WITHOUT_LAZ_FILES();
   EXPECT_TRUE(is_tree(kSmall));
-  EXPECT_FALSE(is_tree(kLazData / "pdrf8-1.4.laz"));
-  EXPECT_FALSE(is_tree(kLazData / "point10-1.0.las"));
+  EXPECT_FALSE(is_tree(laz_file("pdrf8-1.4.laz")));
+  EXPECT_FALSE(is_tree(laz_file("point10-1.0.las")));
 }
 
 TEST(CopcStore, AttributesAreTheSameWhenNothingElseIsAskedFor) {
+  SKIP_WITHOUT_LAZ_FILES();
   const auto source = open_source(kSmall);
   const Cloud all = load_all(*source);
   for (const Column& column : all.columns) {
@@ -128,6 +133,7 @@ class CopcHierarchy : public testing::Test {
 };
 
 TEST_F(CopcHierarchy, ChildrenAreOrderedByXThenYThenZ) {
+  SKIP_WITHOUT_LAZ_FILES();
   set_page(entry({1, 1, 0, 0}, chunk_, chunk_bytes_, 107), entry({1, 0, 0, 1}, 0, 0, 0), entry({0, 0, 0, 0}, 0, 0, 0));
   const CopcStore store(write());
   const auto piece = store.root_piece();
@@ -138,6 +144,7 @@ TEST_F(CopcHierarchy, ChildrenAreOrderedByXThenYThenZ) {
 }
 
 TEST_F(CopcHierarchy, PagesAreReadWhenAskedFor) {
+  SKIP_WITHOUT_LAZ_FILES();
   const std::uint64_t second = file_.size();
   put_entry(file_, second, {1, 0, 1, 0}, chunk_, chunk_bytes_, 107);
   set_page(entry({0, 0, 0, 0}, 0, 0, 0), entry({1, 0, 1, 0}, second, 32, -1));
@@ -149,21 +156,25 @@ TEST_F(CopcHierarchy, PagesAreReadWhenAskedFor) {
 }
 
 TEST_F(CopcHierarchy, APageThatLeadsToItselfIsAnError) {
+  SKIP_WITHOUT_LAZ_FILES();
   set_page(entry({0, 0, 0, 0}, file_.size(), 32, -1));
   EXPECT_TRUE(contains(error(), "begins with a reference to another page for node 0-0-0-0"));
 }
 
 TEST_F(CopcHierarchy, ANodeWithoutAParentIsAnError) {
+  SKIP_WITHOUT_LAZ_FILES();
   set_page(entry({0, 0, 0, 0}, chunk_, chunk_bytes_, 107), entry({2, 0, 0, 0}, chunk_, chunk_bytes_, 107));
   EXPECT_TRUE(contains(error(), "has an entry of node 2-0-0-0, whose parent has none in it"));
 }
 
 TEST_F(CopcHierarchy, ANodeThatOccursTwiceIsAnError) {
+  SKIP_WITHOUT_LAZ_FILES();
   set_page(entry({0, 0, 0, 0}, chunk_, chunk_bytes_, 107), entry({0, 0, 0, 0}, chunk_, chunk_bytes_, 107));
   EXPECT_TRUE(contains(error(), "has node 0-0-0-0 twice"));
 }
 
 TEST_F(CopcHierarchy, BytesBeyondTheFileAreAnError) {
+  SKIP_WITHOUT_LAZ_FILES();
   set_page(entry({0, 0, 0, 0}, chunk_, 0x7FFFFFFF, 107));
   EXPECT_TRUE(contains(error(), "states bytes"));
   put(file_, kRootPage, std::uint64_t{1} << 40);
@@ -171,12 +182,14 @@ TEST_F(CopcHierarchy, BytesBeyondTheFileAreAnError) {
 }
 
 TEST_F(CopcHierarchy, AChunkOfAnotherNumberOfPointsIsAnErrorThatNamesTheNode) {
+  SKIP_WITHOUT_LAZ_FILES();
   set_page(entry({0, 0, 0, 0}, chunk_, chunk_bytes_, 106));
   EXPECT_TRUE(contains(error(), "states 107 points itself"));
   EXPECT_TRUE(contains(error(), "It holds node r."));
 }
 
 TEST_F(CopcHierarchy, MorePointsThanTheBytesCanHoldAreAnErrorBeforeTheyAreMadeRoomFor) {
+  SKIP_WITHOUT_LAZ_FILES();
   put(file_, chunk_ + 36, std::int32_t{2'000'000'000});
   put(file_, 247, std::uint64_t{2'000'000'000});
   put(file_, 107, std::uint32_t{0});
@@ -188,6 +201,7 @@ TEST_F(CopcHierarchy, MorePointsThanTheBytesCanHoldAreAnErrorBeforeTheyAreMadeRo
 }
 
 TEST(CopcRobustness, ADamagedFileIsAnErrorOrReadWhole) {
+  SKIP_WITHOUT_LAZ_FILES();
   const ScratchFolder folder;
   const Bytes whole = test::bytes_of(kSmall);
   std::mt19937 random(2'021);
@@ -220,10 +234,12 @@ class CopcCatalog : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(CopcCatalog, HoldsThePointsOfTheFile) {
+  SKIP_WITHOUT_LAZ_FILES();
   expect_the_points_of_the_file(path_);
 }
 
 TEST_P(CopcCatalog, Checks) {
+  SKIP_WITHOUT_LAZ_FILES();
   const CopcStore store(path_);
   const TreeReport report = check_tree(store);
   EXPECT_FALSE(report.defect) << report.defect->node << ": " << report.defect->what;
@@ -244,6 +260,7 @@ INSTANTIATE_TEST_SUITE_P(Files, CopcCatalog,
                          });
 
 TEST(CopcPages, AHierarchyOfTwoPagesHasAllNodes) {
+  SKIP_WITHOUT_LAZ_FILES();
   const std::filesystem::path path = kData / "laspy+laspy/data/simple_with_page.copc.laz";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
   const CopcStore store(path);

@@ -9,7 +9,18 @@
 
 namespace stipple::test {
 
-inline const std::filesystem::path kLazData = std::filesystem::path(STIPPLE_TEST_DATA) / "laz";
+// Small LAZ files that others wrote, and the LAS files they were made from. Nothing here writes LAZ.
+inline std::filesystem::path laz_file(const std::string& name) {
+  for (const char* folder : {"visgl+loaders.gl/modules/las/test/data", "hobuinc+laz-perf/raw-sets",
+                             "laz-rs+laz-rs/data", "gadomski+las-rs/data"}) {
+    const std::filesystem::path path = std::filesystem::path(STIPPLE_SHARED_DATA) / folder / name;
+    if (std::filesystem::exists(path)) return path;
+  }
+  return std::filesystem::path(STIPPLE_SHARED_DATA) / name;
+}
+
+#define SKIP_WITHOUT_LAZ_FILES() \
+  if (!std::filesystem::exists(STIPPLE_SHARED_DATA)) GTEST_SKIP() << STIPPLE_SHARED_DATA << " is not there"
 
 inline Bytes bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -59,7 +70,7 @@ inline void expect_equal(const Cloud& a, const Cloud& b) {
 }
 
 inline Cloud load_laz(const std::string& name) {
-  return load_all(*open_file((kLazData / name).string()));
+  return load_all(*open_file(laz_file(name).string()));
 }
 
 }  // namespace stipple::test

@@ -13,7 +13,7 @@ using test::contains;
 using test::error_of;
 using test::expect_equal;
 using test::get;
-using test::kLazData;
+using test::laz_file;
 using test::load_all;
 using test::load_laz;
 using test::one_that_contains;
@@ -26,12 +26,14 @@ constexpr std::size_t kOffsetToPoints = 96;
 class LazTwins : public testing::TestWithParam<const char*> {};
 
 TEST_P(LazTwins, HaveTheSameSchemaGridAndValues) {
+  SKIP_WITHOUT_LAZ_FILES();
   expect_equal(load_laz(GetParam() + std::string(".laz")), load_laz(GetParam() + std::string(".las")));
 }
 
 TEST_P(LazTwins, AttributesAreTheSameWhenNothingElseIsAskedFor) {
+  SKIP_WITHOUT_LAZ_FILES();
   const Cloud all = load_laz(GetParam() + std::string(".las"));
-  const auto source = open_file((kLazData / (GetParam() + std::string(".laz"))).string());
+  const auto source = open_file(laz_file((GetParam() + std::string(".laz"))).string());
   for (const Column& column : all.columns) {
     const Cloud one = load_cloud(*source, {column.attribute.name});
     EXPECT_EQ(one.positions, all.positions) << column.attribute.name;
@@ -41,9 +43,10 @@ TEST_P(LazTwins, AttributesAreTheSameWhenNothingElseIsAskedFor) {
 }
 
 TEST_P(LazTwins, AreToldApartByContentNotByName) {
+  SKIP_WITHOUT_LAZ_FILES();
   const ScratchFolder folder;
   const auto copy = [&](const std::string& from, const std::string& to) {
-    return folder.write(to, test::bytes_of(kLazData / from));
+    return folder.write(to, test::bytes_of(laz_file(from)));
   };
   const std::string name = GetParam();
   EXPECT_EQ(open_file(copy(name + ".laz", "a.las"))->info().format, "LAZ");
@@ -59,7 +62,8 @@ INSTANTIATE_TEST_SUITE_P(Files, LazTwins,
                          });
 
 TEST(LazSource, InfoNamesFormatVersionAndCompression) {
-  const auto info = open_file((kLazData / "pdrf8-1.4.laz").string())->info();
+  SKIP_WITHOUT_LAZ_FILES();
+  const auto info = open_file(laz_file("pdrf8-1.4.laz").string())->info();
   EXPECT_EQ(info.format, "LAZ");
   EXPECT_EQ(info.version, "1.4");
   EXPECT_EQ(info.encoding, "point format 8, 42 bytes a point unpacked, chunks of 256 points, items of version 3");
@@ -67,12 +71,14 @@ TEST(LazSource, InfoNamesFormatVersionAndCompression) {
 }
 
 TEST(LazSource, AFileWithoutPointsIsEmpty) {
+  SKIP_WITHOUT_LAZ_FILES();
   const Cloud cloud = load_laz("no-points-1.3.laz");
   EXPECT_EQ(cloud.size(), 0u);
   EXPECT_EQ(cloud.info.warnings, Strings{});
 }
 
 TEST(LazSource, ChunksOfVariableSizeAreFoundByTheTable) {
+  SKIP_WITHOUT_LAZ_FILES();
   const Cloud cloud = load_laz("autzen.copc.laz");
   EXPECT_EQ(cloud.size(), 107u);
   EXPECT_TRUE(contains(cloud.info.encoding, "chunks of variable size"));
@@ -84,7 +90,8 @@ TEST(LazSource, ChunksOfVariableSizeAreFoundByTheTable) {
 }
 
 TEST(LazSource, BatchesAreDisjointAndWhole) {
-  const LazSource source((kLazData / "pdrf5-1.3.laz").string());
+  SKIP_WITHOUT_LAZ_FILES();
+  const LazSource source(laz_file("pdrf5-1.3.laz").string());
   std::vector<std::atomic<int>> seen(source.info().point_count);
   source.read({}, [&](const PointBatch& batch) {
     for (std::size_t i = 0; i < batch.positions.size(); ++i) ++seen.at(batch.first + i);
@@ -93,7 +100,8 @@ TEST(LazSource, BatchesAreDisjointAndWhole) {
 }
 
 TEST_P(LazTwins, ChunksDecodedSideBySideAreTheSame) {
-  const std::string path = (kLazData / (GetParam() + std::string(".laz"))).string();
+  SKIP_WITHOUT_LAZ_FILES();
+  const std::string path = laz_file((GetParam() + std::string(".laz"))).string();
   const InputFile file(path);
   const las::Header header = las::parse_header(file.map().bytes(), path);
   const laz::Format format = laz::read_format(file.map().bytes(), header, path);
@@ -133,16 +141,17 @@ TEST_P(LazTwins, ChunksDecodedSideBySideAreTheSame) {
 }
 
 TEST(LazSource, AnUncompressedFileIsNone) {
-  EXPECT_TRUE(contains(error_of([] { LazSource((kLazData / "pdrf5-1.3.las").string()); }),
+  SKIP_WITHOUT_LAZ_FILES();
+  EXPECT_TRUE(contains(error_of([] { LazSource(laz_file("pdrf5-1.3.las").string()); }),
                        "at byte 104: the points are not compressed"));
-  EXPECT_TRUE(contains(error_of([] { LasSource((kLazData / "pdrf5-1.3.laz").string()); }),
+  EXPECT_TRUE(contains(error_of([] { LasSource(laz_file("pdrf5-1.3.laz").string()); }),
                        "at byte 104: the points are LAZ-compressed"));
 }
 
 // Files whose writer could not, or was not able to, put the place of the table before the points.
 class LazTable : public testing::TestWithParam<const char*> {
  protected:
-  Bytes bytes() const { return test::bytes_of(kLazData / (GetParam() + std::string(".laz"))); }
+  Bytes bytes() const { return test::bytes_of(laz_file((GetParam() + std::string(".laz")))); }
   Cloud load(const Bytes& bytes) const { return load_all(*open_file(folder_.write("a.laz", bytes))); }
   Cloud expected() const { return load_laz(GetParam() + std::string(".las")); }
 
@@ -150,6 +159,7 @@ class LazTable : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(LazTable, MayBePointedToByTheLastEightBytes) {
+  SKIP_WITHOUT_LAZ_FILES();
   Bytes file = bytes();
   const auto points = get<std::uint32_t>(file, kOffsetToPoints);
   const auto table = get<std::int64_t>(file, points);
@@ -161,6 +171,7 @@ TEST_P(LazTable, MayBePointedToByTheLastEightBytes) {
 }
 
 TEST_P(LazTable, MayBeMissing) {
+  SKIP_WITHOUT_LAZ_FILES();
   Bytes file = bytes();
   const auto points = get<std::uint32_t>(file, kOffsetToPoints);
   const auto table = get<std::int64_t>(file, points);
@@ -177,6 +188,7 @@ TEST_P(LazTable, MayBeMissing) {
 }
 
 TEST_P(LazTable, MayBeDamaged) {
+  SKIP_WITHOUT_LAZ_FILES();
   Bytes file = bytes();
   const auto table = static_cast<std::size_t>(get<std::int64_t>(file, get<std::uint32_t>(file, kOffsetToPoints)));
   put(file, table + 4, std::uint32_t{0xFFFFFFF0});
@@ -195,8 +207,9 @@ INSTANTIATE_TEST_SUITE_P(Files, LazTable, testing::Values("pdrf5-1.3", "pdrf8-1.
                          [](const auto& tested) { return std::string(tested.param).substr(0, 5); });
 
 TEST(LazSource, ChunksOfVariableSizeWithoutATableAreAnError) {
+  SKIP_WITHOUT_LAZ_FILES();
   const ScratchFolder folder;
-  Bytes file = test::bytes_of(kLazData / "autzen.copc.laz");
+  Bytes file = test::bytes_of(laz_file("autzen.copc.laz"));
   const auto points = get<std::uint32_t>(file, kOffsetToPoints);
   put(file, points, static_cast<std::int64_t>(points));
   EXPECT_TRUE(contains(error_of([&] { open_file(folder.write("a.laz", file)); }),

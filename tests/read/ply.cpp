@@ -19,8 +19,7 @@ class Ply : public TableFiles {
     return header("ascii", declarations) + rows;
   }
   static std::string vertex(int count, const std::string& more = "") {
-    return "element vertex " + std::to_string(count) + "\nproperty float x\nproperty float y\nproperty float z\n" +
-           more;
+    return fmt::format("element vertex {}", count) + "\nproperty float x\nproperty float y\nproperty float z\n" + more;
   }
 };
 
