@@ -11,12 +11,13 @@ namespace stipple {
 namespace {
 
 // Integers: whatever the order of summing, the sum is the same.
-struct Sum {
+struct ErrorChange {
   std::uint64_t change = 0;
   std::uint64_t still = 0;
 };
 
-Sum sum_of(const FrameOnPath& before, const FrameOnPath& now, const tbb::blocked_range<std::size_t>& pixels, Sum sum) {
+ErrorChange change_of(const FrameOnPath& before, const FrameOnPath& now, const tbb::blocked_range<std::size_t>& pixels,
+                      ErrorChange sum) {
   for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
     if (before.reference_ids[i] != now.reference_ids[i]) continue;
     ++sum.still;
@@ -42,11 +43,11 @@ Flicker flicker(const FrameOnPath& before, const FrameOnPath& now) {
   require_whole(before);
   require_whole(now);
   require_same_size(before.test.size, now.test.size);
-  const Sum sum = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, now.reference_ids.size(), 1 << 14), Sum{},
-      [&](const auto& pixels, const Sum& so_far) { return sum_of(before, now, pixels, so_far); },
-      [](const Sum& a, const Sum& b) {
-        return Sum{a.change + b.change, a.still + b.still};
+  const ErrorChange sum = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, now.reference_ids.size(), 1 << 14), ErrorChange{},
+      [&](const auto& pixels, const ErrorChange& so_far) { return change_of(before, now, pixels, so_far); },
+      [](const ErrorChange& a, const ErrorChange& b) {
+        return ErrorChange{a.change + b.change, a.still + b.still};
       });
   if (sum.still == 0) return {};
   return {static_cast<double>(sum.change) / (3.0 * static_cast<double>(sum.still)), sum.still};

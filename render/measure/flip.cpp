@@ -33,9 +33,6 @@ constexpr float kCutTo = 0.95f;           // p_t
 constexpr double kFeatureWidth = 0.082;   // w in degrees, section 4.2
 constexpr float kFeatureExponent = 0.5f;  // q_f
 
-// Rows of the result a task computes.
-constexpr int kBand = 48;
-
 double sigma_of(const Sensitivity& s) {
   return std::sqrt(s.b / 2.0) / glm::pi<double>() * kPixelsPerDegree;
 }
@@ -238,10 +235,10 @@ double sum_of_row(const PerceivedRow& test, const PerceivedRow& reference) {
 double flip(const Image& test, const Image& reference) {
   require_same_size(test.size, reference.size);
   if (test.rgb.empty()) return 0.0;
-  std::vector<double> sums(static_cast<std::size_t>((test.size.y + kBand - 1) / kBand));
+  std::vector<double> sums(static_cast<std::size_t>((test.size.y + kBandRows - 1) / kBandRows));
   tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t band) {
-    const int first = static_cast<int>(band) * kBand;
-    const int last = std::min(first + kBand, test.size.y);
+    const int first = static_cast<int>(band) * kBandRows;
+    const int last = std::min(first + kBandRows, test.size.y);
     Band of_test(test, first, last);
     Band of_reference(reference, first, last);
     PerceivedRow test_row(test.size.x);

@@ -14,8 +14,8 @@
 namespace stipple {
 namespace {
 
-enum Verdict { kEmpty, kRight, kHole, kGhost, kSeeThrough, kWrongPoint, kVerdicts };
-using Tally = std::array<std::uint64_t, kVerdicts>;
+enum Verdict { kNothing, kRight, kHole, kGhost, kSeeThrough, kWrongPoint, kVerdicts };
+using Verdicts = std::array<std::uint64_t, kVerdicts>;
 
 class Judge {
  public:
@@ -32,7 +32,7 @@ class Judge {
   Verdict verdict(int x, int y, std::size_t i) const {
     const std::uint32_t shown = test_.ids[i];
     const std::uint32_t expected = reference_.ids[i];
-    if (shown == kNoPoint) return expected == kNoPoint ? kEmpty : kHole;
+    if (shown == kNoPoint) return expected == kNoPoint ? kNothing : kHole;
     if (expected == kNoPoint || stale(x, y, i)) return kGhost;
     const double ratio = static_cast<double>(test_.depth[i]) / static_cast<double>(reference_.depth[i]);
     if (ratio < 1.0 - depth_) return kGhost;
@@ -80,18 +80,18 @@ FrameRates frame_rates(const FrameData& test, const FrameData& reference, const 
   require_same_size(test.size, reference.size);
   require_same_size(test.size, view.size);
   const Judge judge(test, reference, view, grid, point_size, tolerances);
-  std::vector<Tally> rows(static_cast<std::size_t>(test.size.y), Tally{});
+  std::vector<Verdicts> rows(static_cast<std::size_t>(test.size.y), Verdicts{});
   tbb::parallel_for(0, test.size.y, [&](int y) {
     const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(test.size.x);
-    Tally& tally = rows[static_cast<std::size_t>(y)];
+    Verdicts& tally = rows[static_cast<std::size_t>(y)];
     for (int x = 0; x < test.size.x; ++x) ++tally[judge.verdict(x, y, first + static_cast<std::size_t>(x))];
   });
-  Tally total{};
-  for (const Tally& row : rows)
+  Verdicts total{};
+  for (const Verdicts& row : rows)
     for (std::size_t v = 0; v < kVerdicts; ++v) total[v] += row[v];
 
   FrameRates rates;
-  rates.covered_pixels = test.pixels() - total[kEmpty];
+  rates.covered_pixels = test.pixels() - total[kNothing];
   const double covered = static_cast<double>(std::max<std::uint64_t>(rates.covered_pixels, 1));
   const auto share = [&](Verdict verdict) { return static_cast<double>(total[verdict]) / covered; };
   rates.hole = share(kHole);

@@ -12,7 +12,7 @@ namespace stipple {
 namespace {
 
 // Integers, so that the sum is exact and does not depend on the order: even 2^47 bytes that all differ by 255 fit.
-struct Sum {
+struct SquaredErrors {
   std::uint64_t squares = 0;
   std::uint64_t pixels = 0;
 };
@@ -21,9 +21,9 @@ struct Sum {
 template <class Counts>
 double mean_squared_error_where(const Image& a, const Image& b, const Counts& counts) {
   require_same_size(a.size, b.size);
-  const Sum sum = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, a.rgb.size() / 3, 1 << 14), Sum{},
-      [&](const auto& pixels, Sum so_far) {
+  const SquaredErrors sum = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, a.rgb.size() / 3, 1 << 14), SquaredErrors{},
+      [&](const auto& pixels, SquaredErrors so_far) {
         for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
           if (!counts(i)) continue;
           ++so_far.pixels;
@@ -34,8 +34,8 @@ double mean_squared_error_where(const Image& a, const Image& b, const Counts& co
         }
         return so_far;
       },
-      [](const Sum& left, const Sum& right) {
-        return Sum{left.squares + right.squares, left.pixels + right.pixels};
+      [](const SquaredErrors& left, const SquaredErrors& right) {
+        return SquaredErrors{left.squares + right.squares, left.pixels + right.pixels};
       });
   if (sum.pixels == 0) return 0.0;
   return static_cast<double>(sum.squares) / (3.0 * static_cast<double>(sum.pixels));

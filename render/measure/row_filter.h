@@ -9,6 +9,10 @@ namespace stipple {
 // Weights of an odd number of neighbours, the middle one for the pixel itself.
 using Taps = std::vector<float>;
 
+// Rows of a result that one task computes: so many that the rows neighbours both have to filter are the smaller part,
+// so few that those of a task stay in the cache.
+inline constexpr int kBandRows = 48;
+
 inline int radius(const Taps& taps) {
   return static_cast<int>(taps.size() / 2);
 }

@@ -18,9 +18,6 @@ constexpr double kSigma = 1.5;
 constexpr float kC1 = 0.01f * 255.0f * 0.01f * 255.0f;
 constexpr float kC2 = 0.03f * 255.0f * 0.03f * 255.0f;
 
-// Rows of the result a task computes: enough to make the 10 rows that neighbours both need a small part.
-constexpr int kBand = 48;
-
 // With s = a + b and d = a - b, all that SSIM asks for are the moments of s and d by themselves; and where the pictures
 // are the same, d is exactly zero and SSIM exactly one. Variances do not change when s is centred, and float keeps more
 // of them.
@@ -87,12 +84,12 @@ std::optional<double> ssim(const Image& a, const Image& b) {
   const glm::ivec2 inner = a.size - 2 * kRadius;
   if (inner.x < 1 || inner.y < 1) return std::nullopt;
   const Taps taps = gaussian_taps(kSigma, kRadius);
-  const int bands = (inner.y + kBand - 1) / kBand;
+  const int bands = (inner.y + kBandRows - 1) / kBandRows;
   // Summed in a fixed order, so that the result does not depend on who was first
   std::vector<double> sums(static_cast<std::size_t>(bands) * 3);
   tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t task) {
-    const int first = kRadius + static_cast<int>(task / 3) * kBand;
-    const int last = std::min(first + kBand, a.size.y - kRadius);
+    const int first = kRadius + static_cast<int>(task / 3) * kBandRows;
+    const int last = std::min(first + kBandRows, a.size.y - kRadius);
     sums[task] = sum_of_band(a, b, static_cast<int>(task % 3), first, last, taps);
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0) / (3.0 * inner.x * inner.y);
