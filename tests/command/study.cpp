@@ -47,7 +47,7 @@ class StudyCommand : public testing::Test {
   // A file with one view, so that a study is short.
   std::string one_view() const {
     std::ofstream(path("views.json"))
-        << R"({"views": [{"name": "corner", "eye": [-60, -60, 60], "target": [30, 30, 0]}]})";
+        << R"({"views": [{"name": "corner", "eye": [564900, 5933900, 200], "target": [565300, 5934300, 0]}]})";
     return path("views.json");
   }
 
