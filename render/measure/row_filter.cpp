@@ -7,26 +7,22 @@
 namespace stipple {
 namespace {
 
-// Pixels summed at once: as many as stay in registers.
-constexpr int kBlock = 16;
-
-// out[x] += sum of taps[k] source(k)[x]. The order of summation is that of the taps, whatever the width.
+// out[x] += sum of taps[k] source(k)[x]. Four taps a pass: fewer would load and store `out` more often, and compilers
+// see by themselves that each pixel is on its own. The order of summation does not depend on the width.
 template <class Source>
 void add_weighted(const Taps& taps, int width, const Source& source, float* out) {
-  const int count = static_cast<int>(taps.size());
-  int x = 0;
-  for (; x + kBlock <= width; x += kBlock) {
-    float sum[kBlock];
-    std::copy_n(out + x, kBlock, sum);
-    for (int k = 0; k < count; ++k) {
-      const float weight = taps[static_cast<std::size_t>(k)];
-      const float* in = source(k) + x;
-      for (int i = 0; i < kBlock; ++i) sum[i] += weight * in[i];
-    }
-    std::copy_n(sum, kBlock, out + x);
+  std::size_t k = 0;
+  for (; k + 4 <= taps.size(); k += 4) {
+    const float* in[] = {source(k), source(k + 1), source(k + 2), source(k + 3)};
+    const float weights[] = {taps[k], taps[k + 1], taps[k + 2], taps[k + 3]};
+    for (int x = 0; x < width; ++x)
+      out[x] += (weights[0] * in[0][x] + weights[1] * in[1][x]) + (weights[2] * in[2][x] + weights[3] * in[3][x]);
   }
-  for (; x < width; ++x)
-    for (int k = 0; k < count; ++k) out[x] += taps[static_cast<std::size_t>(k)] * source(k)[x];
+  for (; k < taps.size(); ++k) {
+    const float* in = source(k);
+    const float weight = taps[k];
+    for (int x = 0; x < width; ++x) out[x] += weight * in[x];
+  }
 }
 
 }  // namespace
@@ -50,13 +46,13 @@ void filter_along(const float* in, int width, const Taps& taps, float* out) {
   std::fill_n(out, width, 0.0f);
   const float* first = in - radius(taps);
   add_weighted(
-      taps, width, [first](int k) { return first + k; }, out);
+      taps, width, [first](std::size_t k) { return first + k; }, out);
 }
 
 void add_filtered_across(const Rows& in, int center, const Taps& taps, float* out) {
   const int first = center - radius(taps);
   add_weighted(
-      taps, in.width(), [&in, first](int k) { return in.row(first + k); }, out);
+      taps, in.width(), [&in, first](std::size_t k) { return in.row(first + static_cast<int>(k)); }, out);
 }
 
 }  // namespace stipple

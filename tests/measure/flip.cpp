@@ -33,7 +33,8 @@ TEST(Flip, IsSymmetric) {
     EXPECT_DOUBLE_EQ(flip(pair.test, pair.reference), flip(pair.reference, pair.test)) << pair.name;
 }
 
-// No edges: the error is that of the colours, L* against L*, whatever the size.
+// No edges: the error is that of the colours, L* against L*, whatever the size. What floats leave of an edge, about
+// 1e-8, counts by its square root.
 TEST(Flip, OfFlatGreysIsTheDistanceOfTheirLightness) {
   const auto lightness = [](int grey) {
     return lab_of(glm::vec3(linear_of_srgb_table()[static_cast<std::size_t>(grey)])).x;
@@ -44,7 +45,7 @@ TEST(Flip, OfFlatGreysIsTheDistanceOfTheirLightness) {
     const double error = std::pow(lightness(b) - lightness(a), 0.7);
     ASSERT_LT(error, 0.4 * largest);
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(3, 50), glm::ivec2(60, 97)})
-      EXPECT_NEAR(flip(flat_picture(size, a), flat_picture(size, b)), 0.95 * error / (0.4 * largest), 1e-4) << a;
+      EXPECT_NEAR(flip(flat_picture(size, a), flat_picture(size, b)), 0.95 * error / (0.4 * largest), 3e-4) << a;
   }
 }
 
