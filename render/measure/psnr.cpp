@@ -1,26 +1,57 @@
 #include "render/measure/psnr.h"
 
-#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include <cmath>
 #include <limits>
 
-#include "octree/core/error.h"
+#include "render/measure/same_size.h"
 
 namespace stipple {
+namespace {
+
+// Integers, so that the sum is exact and does not depend on the order: even 2^47 bytes that all differ by 255 fit.
+struct SquaredErrors {
+  std::uint64_t squares = 0;
+  std::uint64_t pixels = 0;
+};
+
+// Over the pixels for which `counts(i)`.
+template <class Counts>
+double mean_squared_error_where(const Image& a, const Image& b, const Counts& counts) {
+  require_same_size(a.size, b.size);
+  const SquaredErrors sum = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, a.rgb.size() / 3, 1 << 14), SquaredErrors{},
+      [&](const auto& pixels, SquaredErrors so_far) {
+        for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
+          if (!counts(i)) continue;
+          ++so_far.pixels;
+          for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+            const int difference = a.rgb[c] - b.rgb[c];
+            so_far.squares += static_cast<std::uint64_t>(difference * difference);
+          }
+        }
+        return so_far;
+      },
+      [](const SquaredErrors& left, const SquaredErrors& right) {
+        return SquaredErrors{left.squares + right.squares, left.pixels + right.pixels};
+      });
+  if (sum.pixels == 0) return 0.0;
+  return static_cast<double>(sum.squares) / (3.0 * static_cast<double>(sum.pixels));
+}
+
+}  // namespace
 
 double mean_squared_error(const Image& a, const Image& b) {
-  if (a.size != b.size)
-    throw Error(fmt::format("cannot compare a picture of {}x{} pixels with one of {}x{}", a.size.x, a.size.y, b.size.x,
-                            b.size.y));
-  if (a.rgb.empty()) return 0.0;
-  // Integers, so that the sum is exact: even 2^47 bytes that all differ by 255 fit
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
-    const int difference = a.rgb[i] - b.rgb[i];
-    sum += static_cast<std::uint64_t>(difference * difference);
-  }
-  return static_cast<double>(sum) / static_cast<double>(a.rgb.size());
+  return mean_squared_error_where(a, b, [](std::size_t) { return true; });
+}
+
+double covered_mean_squared_error(const Image& a, const Image& b, std::span<const std::uint32_t> ids) {
+  require_same_size(a.size, b.size);
+  if (ids.size() != a.rgb.size() / 3)
+    throw Error(fmt::format("a picture of {}x{} pixels came with {} ids of points", a.size.x, a.size.y, ids.size()));
+  return mean_squared_error_where(a, b, [ids](std::size_t i) { return ids[i] != kNoPoint; });
 }
 
 double psnr_db(double mse) {

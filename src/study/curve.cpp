@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "render/measure/percentile.h"
 #include "render/measure/psnr.h"
 #include "src/run/median.h"
 
@@ -15,7 +16,7 @@ template <class Condition>
 std::optional<Reached> first_that(const Curve& curve, const Condition& condition) {
   const auto found = std::ranges::find_if(curve.points, condition);
   if (found == curve.points.end()) return std::nullopt;
-  return Reached{found->state.points_drawn, found->state.milliseconds};
+  return Reached{found->state.points_drawn, found->state.milliseconds, found->ssim, found->flip};
 }
 
 // A field of a CSV file: quoted where it must be (RFC 4180).
@@ -24,6 +25,14 @@ std::string csv_field(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';
+}
+
+std::string csv_field(const std::optional<double>& value) {
+  return value ? fmt::format("{:.6f}", *value) : "";
+}
+
+Json json_of(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
 }
 
 // Over the repeats: null when any of them did not get there.
@@ -39,7 +48,35 @@ Json reached_json(std::span<const Curve> repeats, const std::function<std::optio
   return {{"points", static_cast<std::uint64_t>(median(points))},
           {"ms_median", median(times)},
           {"ms_min", std::ranges::min(times)},
-          {"ms_max", std::ranges::max(times)}};
+          {"ms_max", std::ranges::max(times)},
+          {"ssim", json_of(reach(repeats.front())->ssim)},
+          {"flip", json_of(reach(repeats.front())->flip)}};
+}
+
+// Percentiles over the frames of all repeats.
+Json frame_times_json(std::span<const Curve> repeats) {
+  std::vector<double> times;
+  for (const Curve& curve : repeats) {
+    double before = 0.0;
+    for (const CurvePoint& point : curve.points) {
+      times.push_back(point.state.milliseconds - before);
+      before = point.state.milliseconds;
+    }
+  }
+  return {{"p50", percentile(times, 50.0)}, {"p95", percentile(times, 95.0)}, {"p99", percentile(times, 99.0)}};
+}
+
+std::string csv_line(const Curve& curve, const CurvePoint& point) {
+  const FrameState& state = point.state;
+  const FrameRates& rates = point.rates;
+  return fmt::format(
+      "{},{},{},{},{},{},{},{},{},{:.3f},{},{:.9g},{:.6f},{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6g},"
+      "{:.6g},{},{}\n",
+      csv_field(curve.dataset), csv_field(curve.view), curve.mode, curve.raster, curve.repeat, state.frame,
+      state.budget, state.points_drawn, state.points_reprojected, state.milliseconds, state.covered_pixels, point.mse,
+      psnr_db(point.mse), psnr_db(point.covered_mse), csv_field(point.ssim), csv_field(point.flip), rates.hole,
+      rates.see_through, rates.ghost, rates.wrong_point, rates.depth_error_mean, rates.depth_error_p95,
+      point.identical ? 1 : 0, state.converged ? 1 : 0);
 }
 
 }  // namespace
@@ -52,16 +89,20 @@ std::optional<Reached> reaches_identical(const Curve& curve) {
   return first_that(curve, [](const CurvePoint& point) { return point.identical; });
 }
 
+bool QualityMarks::passes(double db) {
+  const auto reached = static_cast<int>(std::ranges::count_if(kQualities, [db](double mark) { return db >= mark; }));
+  if (reached <= reached_) return false;
+  reached_ = reached;
+  return true;
+}
+
 std::string curves_csv(std::span<const Curve> curves) {
   std::string csv =
       "dataset,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,covered_pixels,mse,psnr_db,"
-      "identical,converged\n";
+      "psnr_covered_db,ssim,flip,hole,see_through,ghost,wrong_point,depth_error_mean,depth_error_p95,identical,"
+      "converged\n";
   for (const Curve& curve : curves)
-    for (const auto& [state, mse, identical] : curve.points)
-      csv += fmt::format("{},{},{},{},{},{},{},{},{},{:.3f},{},{:.9g},{:.6f},{},{}\n", csv_field(curve.dataset),
-                         csv_field(curve.view), curve.mode, curve.raster, curve.repeat, state.frame, state.budget,
-                         state.points_drawn, state.points_reprojected, state.milliseconds, state.covered_pixels, mse,
-                         psnr_db(mse), identical ? 1 : 0, state.converged ? 1 : 0);
+    for (const CurvePoint& point : curve.points) csv += csv_line(curve, point);
   return csv;
 }
 
@@ -81,7 +122,17 @@ Json summary_json(std::span<const Curve> repeats) {
           {"frames", last.state.frame},
           {"points_drawn", last.state.points_drawn},
           {"covered_pixels", last.state.covered_pixels},
+          {"frame_ms", frame_times_json(repeats)},
           {"psnr_db", json_of_any(psnr_db(last.mse))},
+          {"psnr_covered_db", json_of_any(psnr_db(last.covered_mse))},
+          {"ssim", json_of(last.ssim)},
+          {"flip", json_of(last.flip)},
+          {"hole", last.rates.hole},
+          {"see_through", last.rates.see_through},
+          {"ghost", last.rates.ghost},
+          {"wrong_point", last.rates.wrong_point},
+          {"depth_error_mean", last.rates.depth_error_mean},
+          {"depth_error_p95", last.rates.depth_error_p95},
           {"converged", last.state.converged},
           {"identical_to_brute_force", last.identical},
           {"reached", reached}};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/measure/frame_rates.h"
 #include "src/json/json.h"
 #include "src/run/view_run.h"
 
@@ -15,7 +16,11 @@ namespace stipple {
 // A frame and how far it is from the reference picture.
 struct CurvePoint {
   FrameState state;
-  double mse = 0.0;        // over the image, channels 0 to 255
+  double mse = 0.0;          // over the image, channels 0 to 255
+  double covered_mse = 0.0;  // over the pixels that the reference covers
+  std::optional<double> ssim;
+  std::optional<double> flip;  // where it was measured
+  FrameRates rates;
   bool identical = false;  // to the brute-force picture of the same rasterizer, in every pixel and id
 };
 
@@ -32,6 +37,8 @@ struct Curve {
 struct Reached {
   std::uint64_t points_drawn = 0;
   double milliseconds = 0.0;
+  std::optional<double> ssim;  // of that frame
+  std::optional<double> flip;
 };
 
 // The first frame with at least `psnr_db`.
@@ -42,12 +49,23 @@ std::optional<Reached> reaches_identical(const Curve& curve);
 // The decibels a summary asks for.
 inline constexpr double kQualities[] = {30.0, 35.0, 40.0, 45.0};
 
-// A header line, then a line a frame: dataset, view, mode, raster, repeat, frame, budget, points_drawn,
-// points_reprojected, ms, covered_pixels, mse, psnr_db (inf when identical to the reference), identical, converged.
+// Tells the first frame of a curve and those that are the first to reach one of kQualities: the frames worth the dearer
+// measurements.
+class QualityMarks {
+ public:
+  // Once for each frame in turn.
+  bool passes(double psnr_db);
+
+ private:
+  int reached_ = -1;  // qualities; none yet seen
+};
+
+// A header line, then a line a frame; docs/study.md says what the columns are. psnr_db is inf when identical to the
+// reference; what was not measured is empty.
 std::string curves_csv(std::span<const Curve> curves);
 
-// Of the repeats of one mode and view: work to each quality (medians, and the spread of the times),
-// final quality and whether it ended identical to brute force.
+// Of the repeats of one mode and view: work to each quality (medians, and the spread of the times), frame times, the
+// quality of the last frame and whether it ended identical to brute force; see docs/study.md.
 Json summary_json(std::span<const Curve> repeats);
 
 }  // namespace stipple

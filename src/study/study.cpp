@@ -8,7 +8,9 @@
 
 #include "octree/core/error.h"
 #include "octree/core/output_file.h"
+#include "render/measure/flip.h"
 #include "render/measure/psnr.h"
+#include "render/measure/ssim.h"
 #include "render/method/progressive_renderer.h"
 #include "render/reference/reference.h"
 #include "render/store/dataset.h"
@@ -24,6 +26,7 @@ using Progress = std::function<void(const std::string&)>;
 
 // What the curves of one view are held against.
 struct Truth {
+  FrameData frame;
   Image reference;
   FrameData brute_force;
 };
@@ -86,7 +89,8 @@ class InputStudy {
   Truth truth_of(const std::string& view_name, const View& view) {
     progress_(fmt::format("{}, {}: reference", name_, view_name));
     Truth truth;
-    truth.reference = compose(render_reference(dataset_.points, view, settings_.point_size), settings_.background);
+    truth.frame = render_reference(dataset_.points, view, settings_.point_size);
+    truth.reference = compose(truth.frame, settings_.background);
     fs::create_directories(folder("reference"));
     write_png(folder("reference") / (view_name + ".png"), truth.reference,
               {{"stipple", text_of(view_provenance(view))}});
@@ -112,6 +116,18 @@ class InputStudy {
     return json;
   }
 
+  // All but FLIP, which costs more than most frames.
+  CurvePoint judged(const FrameState& state, const FrameData& frame, const Image& image, const View& view,
+                    const Truth& truth) const {
+    return {.state = state,
+            .mse = mean_squared_error(image, truth.reference),
+            .covered_mse = covered_mean_squared_error(image, truth.reference, truth.frame.ids),
+            .ssim = ssim(image, truth.reference),
+            .flip = {},
+            .rates = frame_rates(frame, truth.frame, view, dataset_.points.grid, settings_.point_size),
+            .identical = frame.ids == truth.brute_force.ids};
+  }
+
   Curve draw_curve(const std::string& view_name, const View& view, Mode mode, int repeat, const Truth& truth) {
     progress_(fmt::format("{}, {}: {}{}", name_, view_name, name_of(mode),
                           settings_.repeats > 1 ? fmt::format(", repeat {}", repeat + 1) : ""));
@@ -125,15 +141,19 @@ class InputStudy {
     if (repeat == 0) keeper.emplace(folder("frames") / view_name / curve.mode, text_of(provenance));
     const auto drawn = method(mode);
     ProgressiveRenderer renderer(*drawn, settings_.raster, dataset_.points.grid, settings_.point_size);
+    QualityMarks marks;
     const auto observe = [&](const FrameState& state) {
       const FrameData frame = renderer.read();
       const Image image = compose(frame, settings_.background);
-      curve.points.push_back({state, mean_squared_error(image, truth.reference), frame.ids == truth.brute_force.ids});
+      CurvePoint& point = curve.points.emplace_back(judged(state, frame, image, view, truth));
+      if (marks.passes(psnr_db(point.mse)) || settings_.flip_every_frame) point.flip = flip(image, truth.reference);
       if (keeper) keeper->offer(state, image);
     };
     const FrameState end =
         run_view(renderer, view, settings_.budget, {.frames = {}, .milliseconds = 1e3 * settings_.seconds}, observe);
-    if (keeper) keeper->keep(end, compose(renderer.read(), settings_.background));
+    const Image last = compose(renderer.read(), settings_.background);
+    if (!curve.points.back().flip) curve.points.back().flip = flip(last, truth.reference);
+    if (keeper) keeper->keep(end, last);
     return curve;
   }
 
@@ -170,7 +190,8 @@ Json settings_json(const StudySettings& settings) {
             {"repeats", settings.repeats},
             {"point_size", settings.point_size},
             {"background", fmt::format("{:06x}", settings.background)},
-            {"seed", settings.seed}};
+            {"seed", settings.seed},
+            {"flip", settings.flip_every_frame ? "every frame" : "first frame, first at 30, 35, 40, 45 dB, last"}};
   json["clock"] = "drawing alone, each frame awaited; loading, upload, shader compiling and metrics excluded";
   return json;
 }

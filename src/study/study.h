@@ -31,6 +31,7 @@ struct StudySettings {
   std::string color;
   std::uint32_t background = 0x808080;
   std::uint64_t seed = 0;
+  bool flip_every_frame = false;  // or only at QualityMarks and the last frame
 };
 
 struct StudyResult {

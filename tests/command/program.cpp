@@ -108,11 +108,30 @@ TEST_F(Program, ComparePrintsPsnrAndDifferences) {
   EXPECT_EQ(json.at("largest_difference"), 10);
 }
 
+TEST_F(Program, CompareMeasuresSimilarityAndWhatIsSeen) {
+  // Two rows of pixels: too few for a window of SSIM
+  write_png(path("a.png"), grey(12, 100));
+  write_png(path("b.png"), grey(12, 110));
+  const Outcome flat = run("compare " + path("a.png") + " " + path("b.png") + " --json");
+  EXPECT_TRUE(Json::parse(flat.out).at("ssim").is_null()) << flat.out;
+  EXPECT_TRUE(holds(run("compare " + path("a.png") + " " + path("b.png")).out, "needs 11x11 pixels"));
+  Image square{{12, 12}, std::vector<std::uint8_t>(12 * 12 * 3, 100)};
+  write_png(path("c.png"), square);
+  std::ranges::fill(square.rgb, std::uint8_t{110});
+  write_png(path("d.png"), square);
+  const Json json = Json::parse(run("compare " + path("c.png") + " " + path("d.png") + " --json").out);
+  EXPECT_NEAR(json.at("ssim").get<double>(), (2.0 * 100 * 110 + 6.5025) / (100.0 * 100 + 110.0 * 110 + 6.5025), 1e-5);
+  EXPECT_GT(json.at("flip").get<double>(), 0.03);
+  EXPECT_EQ(json.at("flip"), Json::parse(flat.out).at("flip"));
+  EXPECT_TRUE(holds(run("compare " + path("c.png") + " " + path("d.png")).out, "FLIP                0."));
+}
+
 TEST_F(Program, CompareOfIdenticalPicturesIsInf) {
   write_png(path("a.png"), grey(4, 100));
   const Outcome json = run("compare " + path("a.png") + " " + path("a.png") + " --json");
   EXPECT_EQ(json.code, 0);
   EXPECT_EQ(Json::parse(json.out).at("psnr_db"), "inf");
+  EXPECT_EQ(Json::parse(json.out).at("flip"), 0.0);
   EXPECT_TRUE(holds(run("compare " + path("a.png") + " " + path("a.png")).out, "inf dB"));
 }
 

@@ -47,7 +47,7 @@ class StudyCommand : public testing::Test {
   // A file with one view, so that a study is short.
   std::string one_view() const {
     std::ofstream(path("views.json"))
-        << R"({"views": [{"name": "corner", "eye": [-60, -60, 60], "target": [30, 30, 0]}]})";
+        << R"({"views": [{"name": "corner", "eye": [564900, 5933900, 200], "target": [565300, 5934300, 0]}]})";
     return path("views.json");
   }
 
@@ -84,7 +84,13 @@ TEST_F(StudyCommand, WritesCurvesThatRiseAndEndIdentical) {
     before[curve] = row;
   }
   EXPECT_EQ(before.size(), 12u);
-  for (auto& [curve, row] : before) EXPECT_EQ(row["identical"] + row["converged"], "11") << curve;
+  for (auto& [curve, row] : before) {
+    EXPECT_EQ(row["identical"] + row["converged"], "11") << curve;
+    // Brute force on the GPU rounds otherwise than the reference: all but equal
+    EXPECT_GT(std::stod(row["ssim"]), 0.95) << curve;
+    EXPECT_LT(std::stod(row["flip"]), 0.05) << curve;
+    for (const char* rate : {"hole", "see_through", "ghost"}) EXPECT_LT(std::stod(row[rate]), 0.02) << curve << rate;
+  }
 
   EXPECT_TRUE(contains(text_of(path("out/plot.svg")), "</svg>"));
   for (const char* view : {"oblique", "aerial", "low"}) {
@@ -104,6 +110,30 @@ TEST_F(StudyCommand, TwoRunsDifferInTheirTimesAlone) {
   for (Row& row : a) row.erase("ms");
   for (Row& row : b) row.erase("ms");
   EXPECT_EQ(a, b);
+}
+
+TEST_F(StudyCommand, MeasuresFlipOfEveryFrameWhenAsked) {
+  const std::string arguments = city_file(folder_, 20'000) + " --modes unstructured -o ";
+  ASSERT_EQ(study(arguments + path("some")).code, 0);
+  ASSERT_EQ(study(arguments + path("all") + " --flip-every-frame").code, 0);
+  const std::vector<Row> some = rows_of(path("some/curves.csv"));
+  const std::vector<Row> all = rows_of(path("all/curves.csv"));
+  ASSERT_EQ(some.size(), all.size());
+  EXPECT_FALSE(some.front().at("flip").empty());
+  EXPECT_FALSE(some.back().at("flip").empty());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    // More points, less to see
+    if (std::stoi(all[i].at("frame")) > 1) {
+      EXPECT_LT(std::stod(all[i].at("flip")), std::stod(all[i - 1].at("flip"))) << i;
+      EXPECT_LT(std::stod(all[i].at("hole")), std::stod(all[i - 1].at("hole"))) << i;
+      EXPECT_GT(std::stod(all[i].at("ssim")), std::stod(all[i - 1].at("ssim"))) << i;
+    }
+    EXPECT_EQ(std::stod(all[i].at("ghost")), 0.0) << i;
+    EXPECT_TRUE(some[i].at("flip").empty() || some[i].at("flip") == all[i].at("flip")) << i;
+    const double wrong = std::stod(all[i].at("hole")) + std::stod(all[i].at("see_through")) +
+                         std::stod(all[i].at("ghost")) + std::stod(all[i].at("wrong_point"));
+    EXPECT_LE(wrong, 1.00001) << i;
+  }
 }
 
 TEST_F(StudyCommand, AnInputThatFailsIsReportedAndTheRestGoOn) {

@@ -41,6 +41,18 @@ TEST(Psnr, OneDifferentBitIsNotLostInALargePicture) {
   EXPECT_DOUBLE_EQ(mean_squared_error(a, b), 1.0 / (2048.0 * 2048.0 * 3.0));
 }
 
+TEST(Psnr, OfCoveredPixelsLeavesTheBackgroundOut) {
+  const Image a = flat({4, 2}, 100);
+  Image b = a;
+  b.rgb[3] = 106;   // pixel 1
+  b.rgb[21] = 200;  // pixel 7
+  const std::vector<std::uint32_t> ids{5, 6, 7, 8, kNoPoint, kNoPoint, kNoPoint, kNoPoint};
+  EXPECT_DOUBLE_EQ(covered_mean_squared_error(a, b, ids), 36.0 / 12.0);
+  EXPECT_EQ(covered_mean_squared_error(a, b, std::vector<std::uint32_t>(8, kNoPoint)), 0.0);
+  EXPECT_DOUBLE_EQ(covered_mean_squared_error(a, b, std::vector<std::uint32_t>(8, 1u)), mean_squared_error(a, b));
+  EXPECT_THROW(covered_mean_squared_error(a, b, std::vector<std::uint32_t>(7)), Error);
+}
+
 TEST(Psnr, PicturesOfDifferentSizesCannotBeCompared) {
   EXPECT_THROW(mean_squared_error(flat({2, 3}, 0), flat({3, 2}, 0)), Error);
 }

@@ -92,17 +92,75 @@ TEST(Summary, EndsWithTheLastFrame) {
   EXPECT_EQ(summary.at("identical_to_brute_force"), true);
 }
 
+TEST(Summary, GivesPercentilesOfTheFrameTimesOfAllRepeats) {
+  std::vector<Curve> curves{curve_of(std::vector<double>(60, 20.0)), curve_of(std::vector<double>(40, 20.0))};
+  // Two slow frames of a hundred, each with the sum before it
+  for (std::size_t i = 30; i < 60; ++i) curves[0].points[i].state.milliseconds += 500.0;
+  for (std::size_t i = 20; i < 40; ++i) curves[1].points[i].state.milliseconds += 90.0;
+  const Json times = summary_json(curves).at("frame_ms");
+  EXPECT_NEAR(times.at("p50").get<double>(), 10.0, 1e-9);
+  EXPECT_NEAR(times.at("p95").get<double>(), 10.0, 1e-9);
+  EXPECT_NEAR(times.at("p99").get<double>(), 100.0, 1e-9);
+}
+
+TEST(Summary, HasWhatWasMeasuredOfTheLastFrameAndAtEachQuality) {
+  Curve curve = curve_of({20, 36});
+  curve.points[1].ssim = 0.9;
+  curve.points[1].flip = 0.1;
+  curve.points[1].covered_mse = 65.025;
+  curve.points[1].rates.hole = 0.25;
+  const Json summary = summary_json({&curve, 1});
+  EXPECT_EQ(summary.at("ssim"), 0.9);
+  EXPECT_EQ(summary.at("flip"), 0.1);
+  EXPECT_NEAR(summary.at("psnr_covered_db").get<double>(), 30.0, 1e-9);
+  EXPECT_EQ(summary.at("hole"), 0.25);
+  for (const char* key : {"see_through", "ghost", "wrong_point", "depth_error_mean", "depth_error_p95"})
+    EXPECT_EQ(summary.at(key), 0.0) << key;
+  EXPECT_EQ(summary.at("reached").at("35_db").at("flip"), 0.1);
+  EXPECT_EQ(summary.at("reached").at("35_db").at("ssim"), 0.9);
+  curve.points[1].flip.reset();
+  EXPECT_TRUE(summary_json({&curve, 1}).at("flip").is_null());
+}
+
+TEST(QualityMarks, AreTheFirstFrameAndTheFirstAtEachQuality) {
+  QualityMarks marks;
+  EXPECT_TRUE(marks.passes(10));
+  EXPECT_FALSE(marks.passes(29.9));
+  EXPECT_TRUE(marks.passes(30));
+  EXPECT_FALSE(marks.passes(34));
+  EXPECT_FALSE(marks.passes(28));
+  EXPECT_FALSE(marks.passes(31));
+  EXPECT_TRUE(marks.passes(41));
+  EXPECT_FALSE(marks.passes(36));
+  EXPECT_TRUE(marks.passes(kInf));
+  EXPECT_FALSE(marks.passes(kInf));
+}
+
 TEST(CurvesCsv, HasALineAFrameBelowItsHeader) {
   Curve curve = curve_of({20, kInf});
   curve.points[1].identical = true;
   curve.points[1].state.converged = true;
   curve.points[1].state.covered_pixels = 9;
   curve.points[1].state.points_reprojected = 8;
-  EXPECT_EQ(curves_csv({&curve, 1}),
-            "dataset,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,covered_pixels,mse,"
-            "psnr_db,identical,converged\n"
-            "city,low,unstructured,compute,0,1,100,100,0,10.000,0,650.25,20.000000,0,0\n"
-            "city,low,unstructured,compute,0,2,100,200,8,20.000,9,0,inf,1,1\n");
+  curve.points[0].covered_mse = 6502.5;
+  curve.points[0].ssim = 0.75;
+  curve.points[0].flip = 0.125;
+  curve.points[0].rates = {.covered_pixels = 16,
+                           .hole = 0.5,
+                           .ghost = 0.0625,
+                           .see_through = 0.25,
+                           .wrong_point = 0.03125,
+                           .depth_error_mean = 0.001,
+                           .depth_error_p95 = 0.002};
+  EXPECT_EQ(
+      curves_csv({&curve, 1}),
+      "dataset,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,covered_pixels,mse,"
+      "psnr_db,psnr_covered_db,ssim,flip,hole,see_through,ghost,wrong_point,depth_error_mean,depth_error_p95,"
+      "identical,converged\n"
+      "city,low,unstructured,compute,0,1,100,100,0,10.000,0,650.25,20.000000,10.000000,0.750000,0.125000,0.500000,"
+      "0.250000,0.062500,0.031250,0.001,0.002,0,0\n"
+      "city,low,unstructured,compute,0,2,100,200,8,20.000,9,0,inf,inf,,,0.000000,0.000000,0.000000,0.000000,0,0,"
+      "1,1\n");
 }
 
 TEST(CurvesCsv, QuotesWhatWouldBreakALine) {
