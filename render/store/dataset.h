@@ -37,9 +37,15 @@ struct Dataset {
 
 // What is wanted of an input.
 struct DatasetNeeds {
-  bool points = true;   // all points in memory; of a file they always are
-  bool octree = false;  // an octree, in memory where the input is none itself
+  bool points = true;             // all points in memory; of a file they always are
+  bool octree = false;            // an octree, in memory where the input is none itself
+  bool octree_in_memory = false;  // one in memory in any case; then `points`, too
 };
+
+// What serves both.
+inline DatasetNeeds operator|(const DatasetNeeds& a, const DatasetNeeds& b) {
+  return {a.points || b.points, a.octree || b.octree, a.octree_in_memory || b.octree_in_memory};
+}
 
 // Opens, reads and colours `path` (see choose_color). Throws Error before it reads points that limits.main has no room
 // for.

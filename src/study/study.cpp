@@ -179,7 +179,8 @@ Json settings_json(const StudySettings& settings) {
 
 StudyResult run_study(const StudySettings& settings, const HeadlessContext& context, const Progress& progress) {
   fs::create_directories(settings.folder);
-  const bool with_octree = std::ranges::any_of(settings.modes, needs_octree);
+  DatasetNeeds needs;  // the reference draws all points
+  for (const Mode mode : settings.modes) needs = needs | needs_of(mode);
   const std::vector<std::string> names = names_of(settings.inputs);
   std::vector<Curve> curves;
   Json datasets = Json::array();
@@ -188,9 +189,8 @@ StudyResult run_study(const StudySettings& settings, const HeadlessContext& cont
   StudyResult result;
   for (std::size_t i = 0; i < settings.inputs.size(); ++i) {
     try {
-      progress(fmt::format("{}: reading{}", names[i], with_octree ? " and building the octree" : ""));
-      const Dataset dataset =
-          open_dataset(settings.inputs[i], settings.color, {.octree = with_octree}, settings.limits);
+      progress(fmt::format("{}: reading{}", names[i], needs.octree ? " and building the octree" : ""));
+      const Dataset dataset = open_dataset(settings.inputs[i], settings.color, needs, settings.limits);
       InputStudy(settings, names[i], dataset, progress).run(curves, summaries, views);
       Json json{{"name", names[i]}};
       json.update(dataset_provenance(dataset));

@@ -1,0 +1,81 @@
+// Which clusters go on in a frame, and by how many points: decided on the GPU.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/frame/depth_pyramid.h"
+#include "render/store/cluster_cloud.h"
+
+namespace stipple {
+
+// Each call of select() tests all clusters against the frustum and, where they are not nearer than it anywhere, the
+// depth pyramid; ranks those left by urgency; and takes as many points as the budget has, the most urgent first. What
+// each asks for is the number of pixels it can cover. Clusters no point of which has been drawn come first, near ones
+// before far ones, then those whose latest points won most pixels. Passes: shaders/clusters.glsl. The same budget takes
+// the same points on any machine that computes the same floats.
+//
+// Of what is selected, the CPU reads back the totals alone: it waits for the frames before.
+class ClusterSelector {
+ public:
+  struct Options {
+    std::uint32_t largest_budget;
+    bool skip_occluded;
+    bool by_yield;
+  };
+  // Of one chunk.
+  struct Taken {
+    std::uint32_t first_place = 0;  // of places()
+    std::uint32_t points = 0;
+    std::uint32_t first_stretch = 0;
+    std::uint32_t stretches = 0;
+  };
+  struct Result {
+    std::vector<Taken> chunks;  // one for each of the cloud's
+    std::uint32_t points = 0;
+    std::uint32_t open = 0;      // clusters with points left
+    std::uint32_t visible = 0;   // clusters in the frustum
+    std::uint32_t occluded = 0;  // of them
+  };
+
+  // The cloud must outlive the selector.
+  ClusterSelector(const ClusterCloud& cloud, const Options& options);
+
+  // No point was drawn ever.
+  void forget();
+  // At most `budget` points. The view block is bound. `new_view`: every point is to be drawn again, though clusters go
+  // on with the points that come next.
+  Result select(std::uint32_t budget, bool new_view);
+  // What select() chose is drawn, in this frame and the view whose block is bound: sees what came of it.
+  void learn(const FeedbackTarget& frame);
+
+  // Places in the chunks' buffers of the points taken.
+  const GpuBuffer& places() const { return places_; }
+  // Bytes of GPU memory it takes.
+  static std::uint64_t bytes_for(std::uint64_t clusters, std::uint64_t budget);
+
+ private:
+  void score(bool new_view);
+  void rank(std::uint32_t budget);
+  Result read_back();
+
+  const ClusterCloud& cloud_;
+  Options options_;
+  DepthPyramid pyramid_;
+  Program score_;
+  Program cut_;
+  Program sums_;
+  Program scan_;
+  Program take_;
+  Program expand_;
+  Program yield_;
+  GpuBuffer states_;
+  GpuBuffer wishes_;
+  GpuBuffer summary_;
+  GpuBuffer group_sums_;
+  GpuBuffer stretches_;
+  GpuBuffer places_;
+  std::vector<Taken> taken_;
+};
+
+}  // namespace stipple
