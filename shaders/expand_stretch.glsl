@@ -1,6 +1,6 @@
 // A work group a stretch: where its points are in their chunk's buffer.
 #include "clusters.glsl"
-layout(local_size_x = 64) in;
+layout(local_size_x = 16) in;
 
 layout(std430, binding = 0) readonly buffer Boxes { ClusterBox boxes[]; };
 layout(std430, binding = 1) readonly buffer States { ClusterState states[]; };

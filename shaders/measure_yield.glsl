@@ -2,7 +2,7 @@
 // first tell of all.
 #include "projection.glsl"
 #include "clusters.glsl"
-layout(local_size_x = 64) in;
+layout(local_size_x = 16) in;
 
 layout(binding = 1) uniform usampler2D target_ids;
 layout(std430, binding = 0) readonly buffer Points { ivec4 points[]; };

@@ -9,6 +9,13 @@ layout(std430, binding = 0) readonly buffer Boxes { ClusterBox boxes[]; };
 layout(std430, binding = 1) buffer States { ClusterState states[]; };
 layout(std430, binding = 2) readonly buffer Densities { float log_pixels[]; };  // kLevels a cluster
 layout(std430, binding = 3) readonly buffer Pyramid { float farthest[]; };
+#ifdef FROM_ATTACHMENT
+layout(binding = 0) uniform sampler2D depth_drawn;
+float drawn_at(ivec2 pixel) { return texelFetch(depth_drawn, pixel, 0).x; }
+#else
+layout(binding = 0) uniform usampler2D depth_drawn;
+float drawn_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(depth_drawn, pixel, 0).x); }
+#endif
 layout(std430, binding = 4) writeonly buffer Wishes { uint wishes[]; };
 layout(std430, binding = 5) buffer Summary { Totals totals; uvec2 chunk_begins[MOST_CHUNKS]; uint urgencies[]; };
 
@@ -61,7 +68,8 @@ Outline outline_of(ClusterBox box) {
   outline.nearest = nearest - slack.z;
   outline.bounded = outline.nearest > view.near;
   vec2 most = max(abs(from), abs(to));
-  vec2 margin = 1.0 + 0.5 * view.point_size + 0.5 * vec2(view.size) * (slack.xy + most * slack.z) / outline.nearest;
+  // Rasterizers may snap points to sixteenths of a pixel, the coarsest that OpenGL allows
+  vec2 margin = 0.125 + 0.5 * max(view.point_size - 1.0, 0.0) + 0.5 * vec2(view.size) * (slack.xy + most * slack.z) / outline.nearest;
   outline.low = (from * 0.5 + 0.5) * vec2(view.size) - margin;
   outline.high = (to * 0.5 + 0.5) * vec2(view.size) + margin;
   return outline;
@@ -73,15 +81,21 @@ float open_share(Outline outline) {
   ivec2 low = ivec2(clamp(outline.low, vec2(0.0), vec2(view.size - 1)));
   ivec2 high = ivec2(clamp(outline.high, vec2(0.0), vec2(view.size - 1)));
   float depth = view.near / outline.nearest * (1.0 + kDepthRounding);
-  int level = 0;
-  while (level < pyramid_levels - 1 && any(greaterThanEqual((high >> level + 1) - (low >> level + 1), ivec2(kTiles))))
-    ++level;
-  low >>= level + 1;
-  high >>= level + 1;
+  int level = 0;  // tiles of 2^level pixels
+  while (level < pyramid_levels && any(greaterThanEqual((high >> level) - (low >> level), ivec2(kTiles)))) ++level;
+  low >>= level;
+  high >>= level;
   int open = 0;
-  for (int y = low.y; y <= high.y; ++y)
-    for (int x = low.x; x <= high.x; ++x)
-      if (farthest[levels[level].x + uint(y) * levels[level].y + uint(x)] <= depth) ++open;
+  if (level == 0) {
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        if (drawn_at(ivec2(x, y)) <= depth) ++open;
+  } else {
+    uvec4 tiles = levels[level - 1];
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        if (farthest[tiles.x + uint(y) * tiles.y + uint(x)] <= depth) ++open;
+  }
   ivec2 tiles = high - low + 1;
   return float(open) / float(tiles.x * tiles.y);
 }
@@ -141,7 +155,7 @@ void main() {
   states[i] = state;
   if (state.status != kOpen) return;
 
-  const float kLeast = 32.0;
+  const float kLeast = 8.0;
   float pixels = estimated_pixels(i, outline.nearest);
   uint wish = min(uint(clamp(ceil(pixels), kLeast, 65536.0)), box.count - state.drawn);
   uint urgency = urgency_of(state, open, max(outline.nearest, view.near));

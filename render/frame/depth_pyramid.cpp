@@ -50,7 +50,6 @@ void DepthPyramid::build(const FeedbackTarget& frame) {
     dispatch_pixels(glm::ivec2(level.width, level.height));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
-  known_ = levels_;
 }
 
 }  // namespace stipple

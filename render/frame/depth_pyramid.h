@@ -26,10 +26,8 @@ class DepthPyramid {
 
   // Reads a finished frame.
   void build(const FeedbackTarget& frame);
-  // Nothing is known.
-  void clear() { known_ = 0; }
-  // Levels there are; 0 when nothing is known.
-  std::size_t levels() const { return known_; }
+  // 0 before build().
+  std::size_t levels() const { return levels_; }
   const std::array<Level, kMostLevels>& level_table() const { return table_; }
   const GpuBuffer& values() const { return values_; }
 
@@ -42,7 +40,6 @@ class DepthPyramid {
   glm::ivec2 size_{0};
   std::array<Level, kMostLevels> table_{};
   std::size_t levels_ = 0;
-  std::size_t known_ = 0;
   GpuBuffer values_;
 };
 

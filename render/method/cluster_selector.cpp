@@ -49,7 +49,8 @@ void dispatch_groups(std::size_t groups) {
 ClusterSelector::ClusterSelector(const ClusterCloud& cloud, const Options& options)
     : cloud_(cloud),
       options_(options),
-      score_(compile("select_score.glsl")),
+      score_from_image_(compile("select_score.glsl")),
+      score_from_attachment_(compile("select_score.glsl", {{"FROM_ATTACHMENT"}})),
       cut_(compile("select_cut.glsl")),
       sums_(compile("select_scan.glsl", {{"SCAN_SUMS"}})),
       scan_(compile("select_scan.glsl")),
@@ -71,13 +72,13 @@ std::uint64_t ClusterSelector::bytes_for(std::uint64_t clusters, std::uint64_t b
 
 void ClusterSelector::forget() {
   states_.fill(0);
-  pyramid_.clear();
+  drawn_ = nullptr;
 }
 
 ClusterSelector::Result ClusterSelector::select(std::uint32_t budget, bool new_view) {
   taken_.clear();
   if (cloud_.clusters() == 0) return {};
-  if (new_view) pyramid_.clear();
+  if (new_view) drawn_ = nullptr;
   summary_.fill(0);
   score(new_view);
   rank(std::min(budget, options_.largest_budget));
@@ -94,7 +95,9 @@ ClusterSelector::Result ClusterSelector::select(std::uint32_t budget, bool new_v
 }
 
 void ClusterSelector::score(bool new_view) {
-  score_.use();
+  const bool attachment = drawn_ && drawn_->depth_storage() == DepthStorage::attachment;
+  (attachment ? score_from_attachment_ : score_from_image_).use();
+  if (drawn_) drawn_->depth().bind(0);
   cloud_.boxes().bind_storage(0);
   states_.bind_storage(1);
   cloud_.log_pixels().bind_storage(2);
@@ -104,7 +107,7 @@ void ClusterSelector::score(bool new_view) {
   glUniform1ui(0, cloud_.clusters());
   glUniform1i(1, new_view ? 1 : 0);
   glUniform1i(2, options_.by_yield ? 1 : 0);
-  glUniform1i(3, options_.skip_occluded ? static_cast<GLint>(pyramid_.levels()) : 0);
+  glUniform1i(3, drawn_ && options_.skip_occluded ? static_cast<GLint>(pyramid_.levels()) : 0);
   glUniform1f(4, static_cast<float>(cloud_.root_edge()));
   glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid_.level_table()[0].first);
   dispatch_items(cloud_.clusters(), 64);
@@ -166,6 +169,7 @@ void ClusterSelector::learn(const FeedbackTarget& frame) {
     }
   }
   if (options_.skip_occluded) pyramid_.build(frame);
+  drawn_ = &frame;
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

@@ -46,7 +46,8 @@ class ClusterSelector {
   // At most `budget` points. The view block is bound. `new_view`: every point is to be drawn again, though clusters go
   // on with the points that come next.
   Result select(std::uint32_t budget, bool new_view);
-  // What select() chose is drawn, in this frame and the view whose block is bound: sees what came of it.
+  // What select() chose is drawn, in this frame and the view whose block is bound: sees what came of it. The frame
+  // must stay as it is until the next select() or forget().
   void learn(const FeedbackTarget& frame);
 
   // Places in the chunks' buffers of the points taken.
@@ -62,7 +63,9 @@ class ClusterSelector {
   const ClusterCloud& cloud_;
   Options options_;
   DepthPyramid pyramid_;
-  Program score_;
+  const FeedbackTarget* drawn_ = nullptr;  // in this view; null: nothing yet
+  Program score_from_image_;
+  Program score_from_attachment_;
   Program cut_;
   Program sums_;
   Program scan_;

@@ -1,4 +1,4 @@
-// The project's own method: clusters of an octree are selected on the GPU by what the last frame shows.
+// The project's own method: clusters of neighbouring points are selected on the GPU by what the last frame shows.
 #pragma once
 
 #include "render/method/cluster_selector.h"
@@ -6,14 +6,14 @@
 
 namespace stipple {
 
-// The whole cloud lies on the GPU in store order of its octree; visible points are carried as vertices (S19). A cluster
-// wholly behind what is drawn cannot change the picture of a still view and is left out of it; the others take turns
-// by how many pixels their points win, each drawing as many at a time as it can cover pixels (T16).
+// The whole cloud lies on the GPU in small clusters along the Morton curve, each shuffled; visible points are carried
+// as vertices (S19). A cluster wholly behind what is drawn cannot change the picture of a still view and is left out of
+// it; the others take turns by how many pixels their points win, each drawing as many at a time as it can cover pixels
+// (T16).
 class Hybrid final : public Method {
  public:
-  // `points` in store order of `octree`.
-  Hybrid(const PointSet& points, const Octree& octree, const ClusterSelector::Options& options)
-      : cloud_(points, octree), selector_(cloud_, options) {}
+  Hybrid(const PointSet& points, const ClusterSelector::Options& options)
+      : cloud_(points), selector_(cloud_, options) {}
 
   Carry carry() const override { return Carry::vertices; }
   void forget() override { selector_.forget(); }

@@ -27,17 +27,20 @@ void check_room(Mode mode, std::size_t points, std::uint64_t bytes, const Memory
                   name_of(mode), points, bytes, limits.gpu));
 }
 
-std::unique_ptr<Method> make_hybrid(const PointSet& points, const Octree& octree, const MethodOptions& options) {
-  const auto budget = static_cast<std::uint32_t>(
-      std::min<std::size_t>(options.largest_budget, std::max<std::size_t>(points.size(), 1)));
-  const std::size_t clusters = octree.clusters.size();
+std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions& options) {
+  const std::uint64_t sorting = points.size() * kBytesPerPointOfOctree;
+  if (sorting > options.limits.main)
+    throw Error(
+        fmt::format("mode hybrid takes about {} bytes of memory to sort {} points, and {} are allowed. Allow more with "
+                    "--memory, or draw in mode hierarchical.",
+                    sorting, points.size(), options.limits.main));
+  const auto budget = static_cast<std::uint32_t>(std::clamp<std::size_t>(points.size(), 1, options.largest_budget));
+  const std::uint64_t clusters = ClusterCloud::clusters_for(points.size());
   check_room(Mode::hybrid, points.size(),
-             ClusterCloud::bytes_for(points.size(), clusters) + ClusterSelector::bytes_for(clusters, budget),
-             options.limits);
+             ClusterCloud::bytes_for(points.size()) + ClusterSelector::bytes_for(clusters, budget), options.limits);
   return std::make_unique<Hybrid>(
-      points, octree,
-      ClusterSelector::Options{
-          .largest_budget = budget, .skip_occluded = options.skip_occluded, .by_yield = options.by_yield});
+      points, ClusterSelector::Options{
+                  .largest_budget = budget, .skip_occluded = options.skip_occluded, .by_yield = options.by_yield});
 }
 
 }  // namespace
@@ -67,14 +70,8 @@ std::optional<Mode> mode_named(std::string_view name) {
 }
 
 DatasetNeeds needs_of(Mode mode) {
-  switch (mode) {
-    case Mode::hierarchical:
-      return {.points = false, .octree = true};
-    case Mode::hybrid:
-      return {.points = true, .octree = true, .octree_in_memory = true};
-    default:
-      return {};
-  }
+  const bool octree = mode == Mode::hierarchical;
+  return {.points = !octree, .octree = octree};
 }
 
 std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Octree* octree,
@@ -93,8 +90,7 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
       check_room(mode, points.size(), points.size() * kGpuBytesPerPoint, options.limits);
       return std::make_unique<Unstructured>(points, options.seed);
     case Mode::hybrid:
-      if (!octree) throw Error("mode hybrid needs an octree");
-      return make_hybrid(points, *octree, options);
+      return make_hybrid(points, options);
   }
   return nullptr;
 }

@@ -59,7 +59,7 @@ std::span<const Mode> all_modes();
 // "brute-force", "hierarchical", "unstructured", "hybrid".
 std::string_view name_of(Mode mode);
 std::optional<Mode> mode_named(std::string_view name);
-// What the mode draws from: all points in memory or an octree that may stay on disk, or both in memory.
+// What the mode draws from: all points in memory, or an octree, which may stay on disk.
 DatasetNeeds needs_of(Mode mode);
 
 struct MethodOptions {

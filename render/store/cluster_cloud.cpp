@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <limits>
 
+#include "octree/build/builder.h"
 #include "octree/core/error.h"
 #include "octree/select/density.h"
 
@@ -15,89 +16,86 @@ namespace {
 
 static_assert(sizeof(ClusterCloud::ClusterBox) == 32);
 
-// A cluster never spans chunks: larger ones, of trees built with larger clusters, are divided. They are shuffled, so
-// that every part is as even a sample as the whole.
-constexpr std::uint32_t kLargestCluster = 1u << 16;
+// Points of a cluster: docs/decisions/0010-hybrid.md. More where the table of clusters would outgrow what shaders reach
+// on Mesa's software renderer, 128 MiB.
+constexpr std::uint64_t kClusterPoints = 256;
+constexpr std::uint64_t kMostClusters = 1'000'000;
 
-struct Part {
-  std::uint32_t cluster;
-  std::uint32_t first;
-  std::uint32_t count;
-};
-
-std::vector<Part> parts_of(const Octree& octree) {
-  std::vector<Part> parts;
-  parts.reserve(octree.clusters.size());
-  for (std::uint32_t c = 0; c < octree.clusters.size(); ++c) {
-    const Cluster& cluster = octree.clusters[c];
-    for (std::uint32_t taken = 0; taken < cluster.count; taken += kLargestCluster)
-      parts.push_back({c, cluster.first + taken, std::min(kLargestCluster, cluster.count - taken)});
-  }
-  return parts;
+std::uint64_t points_of_a_cluster(std::uint64_t points) {
+  return std::max(kClusterPoints, points / kMostClusters + 1);
 }
 
-void check_reach(std::size_t clusters) {
-  GLint64 limit = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  const std::uint64_t bytes = std::uint64_t{clusters} * ClusterCloud::kLevels * sizeof(float);
-  if (bytes > static_cast<std::uint64_t>(limit))
-    throw Error(
-        fmt::format("mode hybrid: the table of {} clusters takes {} bytes; this driver's shaders reach {}. Draw in "
-                    "mode unstructured or hierarchical.",
-                    clusters, bytes, limit));
+// An octree of a single leaf: its clusters follow the Morton curve.
+Octree flat_octree(const PointSet& points) {
+  BuildOptions options;
+  options.leaf_capacity = std::numeric_limits<std::size_t>::max();
+  options.cluster_points = points_of_a_cluster(points.size());
+  return build_octree(points.grid, points.bounds,
+                      PositionView(std::span<const PackedPoint>(points.points), &PackedPoint::position), options);
 }
 
 }  // namespace
 
-ClusterCloud::ClusterCloud(const PointSet& points, const Octree& octree) : root_edge_(octree.cube.edge) {
-  const std::vector<Part> parts = parts_of(octree);
-  check_reach(parts.size());
-  clusters_ = static_cast<std::uint32_t>(parts.size());
-  std::vector<ClusterBox> boxes(parts.size());
-  std::size_t chunk_first = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Part& part = parts[i];
-    if (part.first + part.count - chunk_first > kChunkPoints) {
-      append_chunk(points, chunk_first, part.first);
-      chunk_first = part.first;
+ClusterCloud::ClusterCloud(const PointSet& points) {
+  const Octree octree = flat_octree(points);
+  root_edge_ = octree.cube.edge;
+  clusters_ = static_cast<std::uint32_t>(octree.clusters.size());
+  const std::span<const std::uint32_t> order(octree.order);
+  std::vector<ClusterBox> boxes;
+  boxes.reserve(octree.clusters.size());
+  std::uint32_t chunk_first = 0;
+  for (const Cluster& cluster : octree.clusters) {
+    if (cluster.first + cluster.count - chunk_first > kChunkPoints) {
+      append_chunk(points, order.subspan(chunk_first, cluster.first - chunk_first));
+      chunk_first = cluster.first;
     }
-    const GridBox& box = octree.clusters[part.cluster].box;
     const auto chunk = static_cast<std::uint32_t>(chunks_.size());
-    const auto place = static_cast<std::uint32_t>(part.first - chunk_first);
-    boxes[i] = {box.min, chunk << kPlaceBits | place, box.max, part.count};
+    boxes.push_back(
+        {cluster.box.min, chunk << kPlaceBits | (cluster.first - chunk_first), cluster.box.max, cluster.count});
   }
-  if (points.size() > chunk_first) append_chunk(points, chunk_first, points.size());
+  if (points.size() > chunk_first) append_chunk(points, order.subspan(chunk_first));
+  write_tables(octree, boxes);
+}
 
-  std::vector<float> log_pixels(parts.size() * kLevels);
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    const BoxCounts& profile = octree.clusters[parts[i].cluster].profile;
+void ClusterCloud::append_chunk(const PointSet& points, std::span<const std::uint32_t> order) {
+  if (chunks_.size() == kMostChunks)
+    throw Error(
+        fmt::format("mode hybrid: {} points are more than it can draw; draw them in mode hierarchical", points.size()));
+  Chunk& chunk = chunks_.emplace_back(
+      Chunk{GpuBuffer(order.size() * sizeof(PackedPoint)), GpuBuffer(order.size() * sizeof(std::uint32_t))});
+  Buffer<PackedPoint> ordered(order.size());
+  Buffer<std::uint32_t> ids(order.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 16384), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      ordered[i] = points.points[order[i]];
+      ids[i] = points.id(order[i]);
+    }
+  });
+  chunk.points.write(0, std::span<const PackedPoint>(ordered));
+  chunk.ids.write(0, std::span<const std::uint32_t>(ids));
+}
+
+void ClusterCloud::write_tables(const Octree& octree, std::span<const ClusterBox> boxes) {
+  std::vector<float> log_pixels(boxes.size() * kLevels);
+  tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) {
     for (int level = 0; level < kLevels; ++level) {
-      const double pixels = estimated_pixels(profile, root_edge_, root_edge_ * std::exp2(-level));
+      const double pixels = estimated_pixels(octree.clusters[i].profile, root_edge_, root_edge_ * std::exp2(-level));
       log_pixels[i * kLevels + static_cast<std::size_t>(level)] = static_cast<float>(std::log2(std::max(pixels, 1.0)));
     }
   });
-  boxes_ = GpuBuffer(boxes.size() * sizeof(ClusterBox));
-  boxes_.write(0, std::span<const ClusterBox>(boxes));
+  boxes_ = GpuBuffer(boxes.size_bytes());
+  boxes_.write(0, boxes);
   log_pixels_ = GpuBuffer(log_pixels.size() * sizeof(float));
   log_pixels_.write(0, std::span<const float>(log_pixels));
 }
 
-void ClusterCloud::append_chunk(const PointSet& points, std::size_t first, std::size_t end) {
-  const std::size_t count = end - first;
-  if (chunks_.size() == kMostChunks)
-    throw Error(fmt::format("mode hybrid draws at most {} points; there are {}. Draw in mode hierarchical.", first,
-                            points.size()));
-  Chunk& chunk =
-      chunks_.emplace_back(Chunk{GpuBuffer(count * sizeof(PackedPoint)), GpuBuffer(count * sizeof(std::uint32_t))});
-  chunk.points.write(0, std::span(points.points).subspan(first, count));
-  Buffer<std::uint32_t> ids(count);
-  for (std::size_t i = 0; i < count; ++i) ids[i] = points.id(first + i);
-  chunk.ids.write(0, std::span<const std::uint32_t>(ids));
+std::uint64_t ClusterCloud::clusters_for(std::uint64_t points) {
+  return points / points_of_a_cluster(points) + 1;
 }
 
-std::uint64_t ClusterCloud::bytes_for(std::uint64_t points, std::uint64_t clusters) {
+std::uint64_t ClusterCloud::bytes_for(std::uint64_t points) {
   return points * (sizeof(PackedPoint) + sizeof(std::uint32_t)) +
-         clusters * (sizeof(ClusterBox) + kLevels * sizeof(float));
+         clusters_for(points) * (sizeof(ClusterBox) + kLevels * sizeof(float));
 }
 
 }  // namespace stipple

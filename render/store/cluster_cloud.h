@@ -1,7 +1,8 @@
-// A whole cloud on the GPU by clusters of its octree.
+// A whole cloud on the GPU in clusters.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "octree/tree/octree.h"
@@ -10,8 +11,10 @@
 
 namespace stipple {
 
-// Points in store order, in chunks that any driver can address and that end where a cluster ends; beside them a table
-// of the clusters, in the same order, for shaders/clusters.glsl.
+// Clusters are stretches of the Morton curve through all points, each shuffled, so that any prefix is an even sample.
+// They are smaller and tighter than those of an octree's nodes, whose upper levels spread a sample over large cells:
+// such boxes are hardly ever hidden (docs/decisions/0010-hybrid.md). The points lie in chunks that any driver can
+// address and that end where a cluster ends; beside them is a table of the clusters for shaders/clusters.glsl.
 class ClusterCloud {
  public:
   static constexpr std::uint32_t kPlaceBits = 22;  // of ClusterBox::place
@@ -31,12 +34,13 @@ class ClusterCloud {
     std::uint32_t count;
   };
 
-  // `points` in store order of the octree. Throws Error when memory is refused, or when shaders do not reach all
-  // clusters.
-  ClusterCloud(const PointSet& points, const Octree& octree);
+  // Takes kBytesPerPointOfOctree a point in main memory while it works. Throws Error when memory is refused.
+  explicit ClusterCloud(const PointSet& points);
 
-  // Bytes of GPU memory that it takes.
-  static std::uint64_t bytes_for(std::uint64_t points, std::uint64_t clusters);
+  // About as many clusters are made of so many points.
+  static std::uint64_t clusters_for(std::uint64_t points);
+  // Bytes of GPU memory that they take.
+  static std::uint64_t bytes_for(std::uint64_t points);
 
   std::uint32_t clusters() const { return clusters_; }
   const std::vector<Chunk>& chunks() const { return chunks_; }
@@ -46,10 +50,11 @@ class ClusterCloud {
   double root_edge() const { return root_edge_; }
 
  private:
-  void append_chunk(const PointSet& points, std::size_t first, std::size_t end);
+  void append_chunk(const PointSet& points, std::span<const std::uint32_t> order);
+  void write_tables(const Octree& octree, std::span<const ClusterBox> boxes);
 
   std::uint32_t clusters_ = 0;
-  double root_edge_;
+  double root_edge_ = 1.0;
   std::vector<Chunk> chunks_;
   GpuBuffer boxes_;
   GpuBuffer log_pixels_;

@@ -34,24 +34,14 @@ std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// Builds the octree and puts the points in its order; each keeps its id.
-void add_octree(Dataset& dataset) {
-  const auto start = Clock::now();
-  PointSet& set = dataset.points;
-  dataset.octree = build_octree(set.grid, set.bounds,
-                                PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position));
-  const Buffer<std::uint32_t>& order = dataset.octree->order;
+// Puts the points in the tree's order; ids become the order itself.
+void to_store_order(PointSet& set, const Octree& octree) {
   Buffer<PackedPoint> ordered(set.size());
-  Buffer<std::uint32_t> ids(set.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, set.size(), 16384), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      ordered[i] = set.points[order[i]];
-      ids[i] = set.id(order[i]);
-    }
+    for (std::size_t i = range.begin(); i < range.end(); ++i) ordered[i] = set.points[octree.order[i]];
   });
   set.points = std::move(ordered);
-  set.ids = std::move(ids);
-  dataset.build_seconds = seconds_since(start);
+  set.ids = octree.order;
 }
 
 // The points of the root, or of the nodes at which the tree begins, as a cloud of their own, with what the colour
@@ -96,7 +86,7 @@ Dataset open_dataset(const std::string& path, const std::string& color, const Da
   Dataset dataset;
   dataset.tree = open_tree(path);
   dataset.info = dataset.tree->info().source;
-  if (needs.points) check_room(dataset.info, needs.octree_in_memory, limits);
+  if (needs.points) check_room(dataset.info, false, limits);
   const std::string chosen = choose_color(dataset.info.schema, color);
   const Cloud root = root_of(*dataset.tree, chosen);
   dataset.colors = map_colors(*dataset.tree, root, chosen);
@@ -111,20 +101,26 @@ Dataset open_dataset(const std::string& path, const std::string& color, const Da
     dataset.points.grid = dataset.info.grid;
   }
   dataset.load_seconds = seconds_since(start);
-  if (needs.octree_in_memory) add_octree(dataset);
   return dataset;
 }
 
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree) {
   Dataset dataset;
-  const auto start = Clock::now();
+  auto start = Clock::now();
   dataset.info = source.info();
   const std::string chosen = choose_color(dataset.info.schema, color);
   const Cloud cloud = load_cloud(source, attributes_for_color(chosen));
   dataset.colors = map_colors(cloud, chosen);
   dataset.points = make_point_set(cloud, dataset.colors);
   dataset.load_seconds = seconds_since(start);
-  if (with_octree) add_octree(dataset);
+  if (!with_octree) return dataset;
+
+  start = Clock::now();
+  PointSet& set = dataset.points;
+  dataset.octree = build_octree(set.grid, set.bounds,
+                                PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position));
+  to_store_order(set, *dataset.octree);
+  dataset.build_seconds = seconds_since(start);
   return dataset;
 }
 

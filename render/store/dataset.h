@@ -37,14 +37,13 @@ struct Dataset {
 
 // What is wanted of an input.
 struct DatasetNeeds {
-  bool points = true;             // all points in memory; of a file they always are
-  bool octree = false;            // an octree, in memory where the input is none itself
-  bool octree_in_memory = false;  // one in memory in any case; then `points`, too
+  bool points = true;   // all points in memory; of a file they always are
+  bool octree = false;  // an octree, in memory where the input is none itself
 };
 
 // What serves both.
 inline DatasetNeeds operator|(const DatasetNeeds& a, const DatasetNeeds& b) {
-  return {a.points || b.points, a.octree || b.octree, a.octree_in_memory || b.octree_in_memory};
+  return {a.points || b.points, a.octree || b.octree};
 }
 
 // Opens, reads and colours `path` (see choose_color). Throws Error before it reads points that limits.main has no room
