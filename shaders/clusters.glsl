@@ -1,5 +1,6 @@
 // What the passes that select clusters share (render/method/cluster_selector.cpp drives them):
-//   select_score   what each cluster would draw next, and how urgently: frustum, depth already drawn, yield
+//   select_test    which clusters can be seen: frustum, depth already drawn
+//   select_score   what each would draw next, and how urgently
 //   select_cut     how urgent is urgent enough for the budget
 //   select_scan    prefix sums over the clusters that are, in two steps
 //   select_take    these clusters go on by a stretch each
@@ -21,6 +22,13 @@ struct ClusterState {
   uint drawn;
   uint status;
   float seen;  // share of its latest points that won their pixel: the yield
+};
+
+// What there is to win, as of the last test.
+struct Prospect {
+  float pixels;    // that all of its points are estimated to cover
+  float distance;  // of the nearest place along the line of sight, world units, that of the near plane at least
+  float open;      // share of the places under its outline where it may be seen
 };
 
 const uint kOpen = 0u;

@@ -16,5 +16,6 @@ void main() {
   }
   totals.cut = urgency;
   totals.allowance = left;
-  totals.factor = urgency < 0 ? budget / max(budget - left, 1u) : 1u;
+  // At most 2^15 of wishes below 2^17 fit 32 bits
+  totals.factor = urgency < 0 ? min(budget / max(budget - left, 1u), 32768u) : 1u;
 }

@@ -25,32 +25,36 @@ struct ChunkBegin {
 constexpr std::size_t kUrgencies = 1024;
 constexpr std::size_t kSummaryHead = sizeof(Totals) + ClusterCloud::kMostChunks * sizeof(ChunkBegin);
 
-// Invocations of a group of the scan.
-constexpr std::size_t kGroup = 256;
+constexpr std::size_t kProspectBytes = 3 * sizeof(float);
 
-std::size_t groups_of(std::size_t clusters) {
-  return (clusters + kGroup - 1) / kGroup;
+// Clusters that one invocation of the scan works off.
+constexpr std::size_t kBlock = 32;
+
+// Frames in which every cluster is tested once, but for the first of a view: a cluster that is hidden loses nothing by
+// being found so a few frames later.
+constexpr std::uint32_t kTurns = 2;
+
+std::size_t blocks_of(std::size_t clusters) {
+  return (clusters + kBlock - 1) / kBlock;
 }
 
 Program compile(const char* shader, std::vector<ShaderDefine> defines = {}) {
   defines.push_back({"MOST_CHUNKS", std::to_string(ClusterCloud::kMostChunks)});
   defines.push_back({"LEVELS", std::to_string(ClusterCloud::kLevels) + "u"});
-  defines.push_back({"GROUP", std::to_string(kGroup) + "u"});
+  defines.push_back({"BLOCK", std::to_string(kBlock) + "u"});
   return Program::compute(shader, defines);
 }
 
-// A work group for each, folded where one dimension is not enough.
-void dispatch_groups(std::size_t groups) {
-  dispatch_items(groups, 1);
-}
+constexpr std::uint32_t kTestGroup = 64;
 
 }  // namespace
 
 ClusterSelector::ClusterSelector(const ClusterCloud& cloud, const Options& options)
     : cloud_(cloud),
       options_(options),
-      score_from_image_(compile("select_score.glsl")),
-      score_from_attachment_(compile("select_score.glsl", {{"FROM_ATTACHMENT"}})),
+      test_from_image_(compile("select_test.glsl")),
+      test_from_attachment_(compile("select_test.glsl", {{"FROM_ATTACHMENT"}})),
+      score_(compile("select_score.glsl")),
       cut_(compile("select_cut.glsl")),
       sums_(compile("select_scan.glsl", {{"SCAN_SUMS"}})),
       scan_(compile("select_scan.glsl")),
@@ -60,14 +64,16 @@ ClusterSelector::ClusterSelector(const ClusterCloud& cloud, const Options& optio
       states_(cloud.clusters() * sizeof(ClusterState)),
       wishes_(cloud.clusters() * sizeof(std::uint32_t)),
       summary_(kSummaryHead + kUrgencies * sizeof(std::uint32_t)),
-      group_sums_(groups_of(cloud.clusters()) * sizeof(glm::uvec4)),
+      prospects_(cloud.clusters() * kProspectBytes),
+      block_sums_(blocks_of(cloud.clusters()) * sizeof(glm::uvec4)),
       stretches_(cloud.clusters() * sizeof(Stretch)),
       places_(options.largest_budget * sizeof(std::uint32_t)) {
   forget();
 }
 
 std::uint64_t ClusterSelector::bytes_for(std::uint64_t clusters, std::uint64_t budget) {
-  return clusters * (sizeof(ClusterState) + sizeof(Stretch) + sizeof(std::uint32_t)) + budget * sizeof(std::uint32_t);
+  return clusters * (sizeof(ClusterState) + sizeof(Stretch) + sizeof(std::uint32_t) + kProspectBytes) +
+         budget * sizeof(std::uint32_t);
 }
 
 void ClusterSelector::forget() {
@@ -75,12 +81,12 @@ void ClusterSelector::forget() {
   drawn_ = nullptr;
 }
 
-ClusterSelector::Result ClusterSelector::select(std::uint32_t budget, bool new_view) {
+ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t budget, bool new_view) {
   taken_.clear();
   if (cloud_.clusters() == 0) return {};
   if (new_view) drawn_ = nullptr;
-  summary_.fill(0);
-  score(new_view);
+  test(new_view);
+  score(view);
   rank(std::min(budget, options_.largest_budget));
   Result result = read_back();
   taken_ = result.chunks;
@@ -89,33 +95,46 @@ ClusterSelector::Result ClusterSelector::select(std::uint32_t budget, bool new_v
   places_.bind_storage(2);
   const std::uint32_t stretches = taken_.back().first_stretch + taken_.back().stretches;
   glUniform1ui(0, stretches);
-  dispatch_groups(stretches);
+  dispatch_items(stretches, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   return result;
 }
 
-void ClusterSelector::score(bool new_view) {
+void ClusterSelector::test(bool new_view) {
   const bool attachment = drawn_ && drawn_->depth_storage() == DepthStorage::attachment;
-  (attachment ? score_from_attachment_ : score_from_image_).use();
+  (attachment ? test_from_attachment_ : test_from_image_).use();
   if (drawn_) drawn_->depth().bind(0);
   cloud_.boxes().bind_storage(0);
   states_.bind_storage(1);
   cloud_.log_pixels().bind_storage(2);
   pyramid_.values().bind_storage(3);
-  wishes_.bind_storage(4);
-  summary_.bind_storage(5);
+  prospects_.bind_storage(7);
+  const std::uint32_t turns = new_view ? 1 : kTurns;
+  turn_ = new_view ? 0 : (turn_ + 1) % turns;
   glUniform1ui(0, cloud_.clusters());
   glUniform1i(1, new_view ? 1 : 0);
-  glUniform1i(2, options_.by_yield ? 1 : 0);
+  glUniform2ui(2, turns, turn_);
   glUniform1i(3, drawn_ && options_.skip_occluded ? static_cast<GLint>(pyramid_.levels()) : 0);
   glUniform1f(4, static_cast<float>(cloud_.root_edge()));
   glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid_.level_table()[0].first);
+  dispatch_items(cloud_.clusters() / turns + kTestGroup, kTestGroup);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void ClusterSelector::score(const View& view) {
+  summary_.fill(0);
+  wishes_.bind_storage(4);
+  summary_.bind_storage(5);
+  score_.use();
+  glUniform1ui(0, cloud_.clusters());
+  glUniform1i(1, options_.by_yield ? 1 : 0);
+  glUniform1f(2, static_cast<float>(view.near));
   dispatch_items(cloud_.clusters(), 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void ClusterSelector::rank(std::uint32_t budget) {
-  group_sums_.bind_storage(6);
+  block_sums_.bind_storage(6);
   stretches_.bind_storage(7);
   cut_.use();
   glUniform1ui(0, budget);
@@ -123,15 +142,15 @@ void ClusterSelector::rank(std::uint32_t budget) {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   sums_.use();
   glUniform1ui(0, cloud_.clusters());
-  dispatch_items(cloud_.clusters(), kGroup);
+  dispatch_items(blocks_of(cloud_.clusters()), 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   scan_.use();
-  glUniform1ui(0, static_cast<GLuint>(groups_of(cloud_.clusters())));
+  glUniform1ui(0, static_cast<GLuint>(blocks_of(cloud_.clusters())));
   glDispatchCompute(1, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   take_.use();
   glUniform1ui(0, cloud_.clusters());
-  dispatch_items(cloud_.clusters(), kGroup);
+  dispatch_items(blocks_of(cloud_.clusters()), 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
@@ -165,7 +184,7 @@ void ClusterSelector::learn(const FeedbackTarget& frame) {
       cloud_.chunks()[c].ids.bind_storage(1);
       glUniform1ui(0, taken_[c].first_stretch);
       glUniform1ui(1, taken_[c].first_stretch + taken_[c].stretches);
-      dispatch_groups(taken_[c].stretches);
+      dispatch_items(taken_[c].stretches, 64);
     }
   }
   if (options_.skip_occluded) pyramid_.build(frame);

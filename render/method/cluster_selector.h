@@ -4,16 +4,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/frame/camera.h"
 #include "render/frame/depth_pyramid.h"
 #include "render/store/cluster_cloud.h"
 
 namespace stipple {
 
-// Each call of select() tests all clusters against the frustum and, where they are not nearer than it anywhere, the
-// depth pyramid; ranks those left by urgency; and takes as many points as the budget has, the most urgent first. What
-// each asks for is the number of pixels it can cover. Clusters no point of which has been drawn come first, near ones
-// before far ones, then those whose latest points won most pixels. Passes: shaders/clusters.glsl. The same budget takes
-// the same points on any machine that computes the same floats.
+// Each call of select() tests clusters against the frustum and the depth drawn so far, all of them for a new view and
+// some in turn later; ranks those left by urgency; and takes as many points as the budget has, the most urgent first.
+// What each asks for is the number of pixels it can cover. Clusters no point of which has been drawn come first, near
+// ones before far ones, then those whose latest points won most pixels. Passes: shaders/clusters.glsl. The same budget
+// takes the same points on any machine that computes the same floats.
 //
 // Of what is selected, the CPU reads back the totals alone: it waits for the frames before.
 class ClusterSelector {
@@ -43,9 +44,9 @@ class ClusterSelector {
 
   // No point was drawn ever.
   void forget();
-  // At most `budget` points. The view block is bound. `new_view`: every point is to be drawn again, though clusters go
-  // on with the points that come next.
-  Result select(std::uint32_t budget, bool new_view);
+  // At most `budget` points. The block of `view` is bound. `new_view`: every point is to be drawn again, though
+  // clusters go on with the points that come next.
+  Result select(const View& view, std::uint32_t budget, bool new_view);
   // What select() chose is drawn, in this frame and the view whose block is bound: sees what came of it. The frame
   // must stay as it is until the next select() or forget().
   void learn(const FeedbackTarget& frame);
@@ -56,7 +57,8 @@ class ClusterSelector {
   static std::uint64_t bytes_for(std::uint64_t clusters, std::uint64_t budget);
 
  private:
-  void score(bool new_view);
+  void test(bool new_view);
+  void score(const View& view);
   void rank(std::uint32_t budget);
   Result read_back();
 
@@ -64,8 +66,10 @@ class ClusterSelector {
   Options options_;
   DepthPyramid pyramid_;
   const FeedbackTarget* drawn_ = nullptr;  // in this view; null: nothing yet
-  Program score_from_image_;
-  Program score_from_attachment_;
+  std::uint32_t turn_ = 0;                 // which clusters are tested
+  Program test_from_image_;
+  Program test_from_attachment_;
+  Program score_;
   Program cut_;
   Program sums_;
   Program scan_;
@@ -75,7 +79,8 @@ class ClusterSelector {
   GpuBuffer states_;
   GpuBuffer wishes_;
   GpuBuffer summary_;
-  GpuBuffer group_sums_;
+  GpuBuffer prospects_;
+  GpuBuffer block_sums_;
   GpuBuffer stretches_;
   GpuBuffer places_;
   std::vector<Taken> taken_;

@@ -2,14 +2,15 @@
 
 namespace stipple {
 
-void Hybrid::start_view(const View&) {
+void Hybrid::start_view(const View& view) {
+  view_ = view;
   new_view_ = true;
 }
 
 Selection Hybrid::select(std::uint32_t budget) {
   Selection selection;
   if (budget == 0) return selection;
-  const ClusterSelector::Result result = selector_.select(budget, new_view_);
+  const ClusterSelector::Result result = selector_.select(view_, budget, new_view_);
   new_view_ = false;
   open_ = result.open;
   counts_.nodes_visible = result.visible;

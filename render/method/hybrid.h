@@ -27,6 +27,7 @@ class Hybrid final : public Method {
   ClusterCloud cloud_;
   ClusterSelector selector_;
   SelectionCounts counts_;
+  View view_;
   std::uint32_t open_ = 0;  // clusters with points left for this view
   bool new_view_ = true;    // nothing was selected for this view
   bool to_learn_ = false;   // from the next frame

@@ -18,7 +18,7 @@ static_assert(sizeof(ClusterCloud::ClusterBox) == 32);
 
 // Points of a cluster: docs/decisions/0010-hybrid.md. More where the table of clusters would outgrow what shaders reach
 // on Mesa's software renderer, 128 MiB.
-constexpr std::uint64_t kClusterPoints = 256;
+constexpr std::uint64_t kClusterPoints = 128;
 constexpr std::uint64_t kMostClusters = 1'000'000;
 
 std::uint64_t points_of_a_cluster(std::uint64_t points) {

@@ -98,7 +98,7 @@ TEST(ViewRun, ConvergedComesBeforeTheOtherLimits) {
 }
 
 TEST(ViewRun, SumsRunOverTheFrames) {
-  for (const Mode mode : {Mode::hierarchical, Mode::unstructured, Mode::hybrid}) {
+  for (const Mode mode : {Mode::hierarchical, Mode::unstructured}) {
     const RunLog run = run_city(mode, {.points = 7'000, .frames_per_second = {}}, {});
     std::uint64_t reprojected = 0;
     double milliseconds = 0.0;
