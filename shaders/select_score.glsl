@@ -1,4 +1,5 @@
-// How many points each cluster asks for, and how urgently.
+// How many points each cluster asks for, and how urgently. Asking for half of the pixels it can cover instead of all drew 1 to 4
+// % fewer points until 40 dB (stipple study city20.las --modes hybrid --budget 250k).
 #include "clusters.glsl"
 layout(local_size_x = 64) in;
 #include "invocation.glsl"
@@ -19,7 +20,8 @@ uint urgency_of(ClusterState state, Prospect prospect) {
   if (state.drawn == 0u && (prospect.open == 1.0 || !by_yield))
     return kUrgencies - 1u - uint(clamp(16.0 * log2(prospect.distance / near), 0.0, kHalf - 1.0));
   if (!by_yield) return 0u;
-  float share = state.drawn == 0u ? prospect.open : state.seen;
+  // What is nearly hidden waits: it may soon be hidden wholly
+  float share = state.drawn == 0u ? prospect.open : state.seen * prospect.open;
   return uint(clamp(kHalf - 1.0 + 50.0 * log2(max(share, 1e-6)), 0.0, kHalf - 1.0));
 }
 
@@ -32,7 +34,7 @@ void main() {
   uint entry = 0u;
   if (state.status == kOpen && rest > 0u) {
     Prospect prospect = prospects[i];
-    uint wish = min(uint(clamp(ceil(prospect.pixels), kLeast, 65536.0)), rest);
+    uint wish = min(uint(clamp(ceil(0.5 * prospect.pixels), kLeast, 65536.0)), rest);
     uint urgency = urgency_of(state, prospect);
     entry = urgency << kWishBits | wish;
     atomicAdd(urgencies[urgency], wish);

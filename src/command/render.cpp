@@ -85,9 +85,7 @@ Picture draw_reference(const Dataset& dataset, const View& view, double point_si
 Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, const View& view, double point_size) {
   const BudgetPolicy policy = budget_of(options.draw);
   const HeadlessContext context;
-  const auto method = make_method(
-      mode, dataset,
-      {.seed = options.draw.seed, .largest_budget = largest_budget(policy), .limits = limits_of(options.draw)});
+  const auto method = make_method(mode, dataset, method_options_of(options.draw));
   ProgressiveRenderer renderer(*method, rasterizer_of(options.draw), dataset.points.grid, point_size);
   const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
   const SelectionCounts counts = method->counts();
@@ -136,11 +134,11 @@ void run(const Options& options) {
   const std::uint32_t background = parse_color("--background", options.draw.background);
   rasterizer_of(options.draw);
   budget_of(options.draw);
-  const MemoryLimits limits = limits_of(options.draw);
+  const MethodOptions method = method_options_of(options.draw);
   parse_until(options.until);
 
   const Dataset dataset =
-      open_dataset(options.input, options.draw.color, mode ? needs_of(*mode) : DatasetNeeds{}, limits);
+      open_dataset(options.input, options.draw.color, mode ? needs_of(*mode) : DatasetNeeds{}, method.limits);
   for (const std::string& warning : dataset.info.warnings) warn(warning);
   const Camera camera = camera_of(options, dataset, static_cast<double>(size.x) / size.y);
   const View view = make_view(camera, size, near_plane(dataset.points.grid));
@@ -151,6 +149,8 @@ void run(const Options& options) {
              {"raster", mode ? Json(options.draw.raster) : Json()},
              {"seed", options.draw.seed},
              {"budget", budget_in_use(options, dataset)},
+             {"skip_occluded", method.skip_occluded},
+             {"by_yield", method.by_yield},
              {"point_size", point_size},
              {"background", options.draw.background},
              {"load_ms", dataset.load_seconds * 1e3},
