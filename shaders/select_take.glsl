@@ -6,6 +6,7 @@ layout(local_size_x = 64) in;
 #include "invocation.glsl"
 #include "wishes.glsl"
 
+layout(std430, binding = 2) writeonly buffer OpenClusters { uint open_clusters[]; };
 layout(std430, binding = 7) writeonly buffer Stretches { Stretch stretches[]; };
 
 void main() {
@@ -13,7 +14,8 @@ void main() {
   uint first = block * BLOCK;
   if (first >= clusters) return;
   uvec4 before = block_sums[block];
-  uvec3 counts = uvec3(0u);  // visible, occluded, open
+  uvec2 counts = uvec2(0u);  // visible, occluded
+  uint open = 0u;            // a bit for each of the block
   for (uint i = first; i < min(first + BLOCK, clusters); ++i) {
     uvec4 wish = wish_of(i);
     uvec4 end = before + wish;
@@ -29,8 +31,8 @@ void main() {
       stretches[slot] = Stretch(i, begin, state.drawn, count);
       states[i].drawn = state.drawn + count;
     }
-    counts += uvec3(state.status != kOutside, state.status == kOccluded,
-                    state.status == kOpen && state.drawn + count < box.count);
+    counts += uvec2(state.status != kOutside, state.status == kOccluded);
+    if (state.status == kOpen && state.drawn + count < box.count) open |= 1u << i - first;
     if (i == clusters - 1u) {
       totals.points = begin + count;
       totals.stretches = end.y + end.w;
@@ -38,5 +40,6 @@ void main() {
   }
   atomicAdd(totals.visible, counts.x);
   atomicAdd(totals.occluded, counts.y);
-  atomicAdd(totals.open, counts.z);
+  for (uint slot = atomicAdd(totals.open, uint(bitCount(open))); open != 0u; open &= open - 1u)
+    open_clusters[slot++] = first + uint(findLSB(open));
 }

@@ -1,4 +1,4 @@
-// For each cluster of every `stride` groups: can this view see it, is it wholly behind the depth already drawn, and if
+// For each cluster, or each that is open still: can this view see it, is it wholly behind the depth already drawn, and if
 // neither, what is there to win. Only certainty rules a cluster out.
 #include "projection.glsl"
 #include "clusters.glsl"
@@ -16,11 +16,11 @@ float drawn_at(ivec2 pixel) { return texelFetch(depth_drawn, pixel, 0).x; }
 layout(binding = 0) uniform usampler2D depth_drawn;
 float drawn_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(depth_drawn, pixel, 0).x); }
 #endif
+layout(std430, binding = 4) readonly buffer OpenClusters { uint open_clusters[]; };
 layout(std430, binding = 7) writeonly buffer Prospects { Prospect prospects[]; };
 
-layout(location = 0) uniform uint clusters;
-layout(location = 1) uniform bool new_view;
-layout(location = 2) uniform uvec2 turn;          // stride, and which of its groups
+layout(location = 0) uniform uint tested;         // all clusters, or as many as are open
+layout(location = 1) uniform bool new_view;       // test all
 layout(location = 3) uniform int pyramid_levels;  // 0: nothing is known of the depth
 layout(location = 4) uniform float root_edge;     // world units
 layout(location = 5) uniform uvec4 levels[16];    // of the pyramid: first value, width, height
@@ -109,10 +109,9 @@ float estimated_pixels(uint cluster, float distance) {
 }
 
 void main() {
-  uint index = invocation_index();
-  uint group = index / gl_WorkGroupSize.x;
-  uint i = (group * turn.x + turn.y) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-  if (i >= clusters) return;
+  uint i = invocation_index();
+  if (i >= tested) return;
+  if (!new_view) i = open_clusters[i];
   ClusterBox box = boxes[i];
   ClusterState state = states[i];
   if (new_view) {
@@ -125,8 +124,8 @@ void main() {
   }
   Outline outline = outline_of(box);
   float open = open_share(outline);
-  if (state.status == kOpen && outline.outside) state.status = kOutside;
-  if (state.status == kOpen && state.drawn < box.count && open == 0.0) state.status = kOccluded;
+  if (outline.outside) state.status = kOutside;
+  else if (open == 0.0) state.status = kOccluded;
   states[i] = state;
   prospects[i] = Prospect(estimated_pixels(i, outline.nearest), max(outline.nearest, view.near), open);
 }

@@ -30,10 +30,6 @@ constexpr std::size_t kProspectBytes = 3 * sizeof(float);
 // Clusters that one invocation of the scan works off.
 constexpr std::size_t kBlock = 32;
 
-// Frames in which every cluster is tested once, but for the first of a view: a cluster that is hidden loses nothing by
-// being found so a few frames later.
-constexpr std::uint32_t kTurns = 2;
-
 std::size_t blocks_of(std::size_t clusters) {
   return (clusters + kBlock - 1) / kBlock;
 }
@@ -44,8 +40,6 @@ Program compile(const char* shader, std::vector<ShaderDefine> defines = {}) {
   defines.push_back({"BLOCK", std::to_string(kBlock) + "u"});
   return Program::compute(shader, defines);
 }
-
-constexpr std::uint32_t kTestGroup = 64;
 
 }  // namespace
 
@@ -62,6 +56,7 @@ ClusterSelector::ClusterSelector(const ClusterCloud& cloud, const Options& optio
       expand_(compile("expand_stretch.glsl")),
       yield_(compile("measure_yield.glsl")),
       states_(cloud.clusters() * sizeof(ClusterState)),
+      open_clusters_(cloud.clusters() * sizeof(std::uint32_t)),
       wishes_(cloud.clusters() * sizeof(std::uint32_t)),
       summary_(kSummaryHead + kUrgencies * sizeof(std::uint32_t)),
       prospects_(cloud.clusters() * kProspectBytes),
@@ -72,7 +67,7 @@ ClusterSelector::ClusterSelector(const ClusterCloud& cloud, const Options& optio
 }
 
 std::uint64_t ClusterSelector::bytes_for(std::uint64_t clusters, std::uint64_t budget) {
-  return clusters * (sizeof(ClusterState) + sizeof(Stretch) + sizeof(std::uint32_t) + kProspectBytes) +
+  return clusters * (sizeof(ClusterState) + sizeof(Stretch) + 2 * sizeof(std::uint32_t) + kProspectBytes) +
          budget * sizeof(std::uint32_t);
 }
 
@@ -89,6 +84,7 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
   score(view);
   rank(std::min(budget, options_.largest_budget));
   Result result = read_back();
+  open_ = result.open;
   taken_ = result.chunks;
 
   expand_.use();
@@ -109,15 +105,14 @@ void ClusterSelector::test(bool new_view) {
   cloud_.log_pixels().bind_storage(2);
   pyramid_.values().bind_storage(3);
   prospects_.bind_storage(7);
-  const std::uint32_t turns = new_view ? 1 : kTurns;
-  turn_ = new_view ? 0 : (turn_ + 1) % turns;
-  glUniform1ui(0, cloud_.clusters());
+  open_clusters_.bind_storage(4);
+  const std::uint32_t tested = new_view ? cloud_.clusters() : open_;
+  glUniform1ui(0, tested);
   glUniform1i(1, new_view ? 1 : 0);
-  glUniform2ui(2, turns, turn_);
   glUniform1i(3, drawn_ && options_.skip_occluded ? static_cast<GLint>(pyramid_.levels()) : 0);
   glUniform1f(4, static_cast<float>(cloud_.root_edge()));
   glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid_.level_table()[0].first);
-  dispatch_items(cloud_.clusters() / turns + kTestGroup, kTestGroup);
+  dispatch_items(tested, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -134,6 +129,7 @@ void ClusterSelector::score(const View& view) {
 }
 
 void ClusterSelector::rank(std::uint32_t budget) {
+  open_clusters_.bind_storage(2);
   block_sums_.bind_storage(6);
   stretches_.bind_storage(7);
   cut_.use();

@@ -10,11 +10,11 @@
 
 namespace stipple {
 
-// Each call of select() tests clusters against the frustum and the depth drawn so far, all of them for a new view and
-// some in turn later; ranks those left by urgency; and takes as many points as the budget has, the most urgent first.
-// What each asks for is the number of pixels it can cover. Clusters no point of which has been drawn come first, near
-// ones before far ones, then those whose latest points won most pixels. Passes: shaders/clusters.glsl. The same budget
-// takes the same points on any machine that computes the same floats.
+// Each call of select() tests against the frustum and the depth drawn so far, all clusters for a new view and later
+// those that are open still; ranks those left by urgency; and takes as many points as the budget has, the most urgent
+// first. What each asks for is the number of pixels it can cover. Clusters no point of which has been drawn come first,
+// near ones before far ones, then those whose latest points won most pixels. Passes: shaders/clusters.glsl. The same
+// budget takes the same points on any machine that computes the same floats.
 //
 // Of what is selected, the CPU reads back the totals alone: it waits for the frames before.
 class ClusterSelector {
@@ -66,7 +66,7 @@ class ClusterSelector {
   Options options_;
   DepthPyramid pyramid_;
   const FeedbackTarget* drawn_ = nullptr;  // in this view; null: nothing yet
-  std::uint32_t turn_ = 0;                 // which clusters are tested
+  std::uint32_t open_ = 0;                 // clusters open after the last select()
   Program test_from_image_;
   Program test_from_attachment_;
   Program score_;
@@ -77,6 +77,7 @@ class ClusterSelector {
   Program expand_;
   Program yield_;
   GpuBuffer states_;
+  GpuBuffer open_clusters_;
   GpuBuffer wishes_;
   GpuBuffer summary_;
   GpuBuffer prospects_;
