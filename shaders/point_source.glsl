@@ -1,6 +1,7 @@
 // Where the points of a pass come from:
 //   SOURCE_RANGE    consecutive points of a buffer (fill)
 //   SOURCE_VERTICES points collected from the last frame, counted on the GPU (reproject as S19)
+//   SOURCE_PICKS    points of a buffer in the places that another names (fill by cluster)
 //   SOURCE_GRID     the last frame itself, a point a pixel (reproject as T16)
 // A PointIndex names one of them: a number, or a pixel, because dividing numbers costs more than all the rest.
 #include "packing.glsl"
@@ -38,9 +39,16 @@ layout(location = 1) uniform uint source_size;
 uint source_count() { return source_size; }
 #endif
 
+#ifdef SOURCE_PICKS
+layout(std430, binding = 2) readonly buffer SourcePlaces { uint source_places[]; };
+uint place_of(uint i) { return source_places[source_first + i]; }
+#else
+uint place_of(uint i) { return source_first + i; }
+#endif
+
 bool fetch_point(uint i, out ivec4 point, out uint id) {
   if (i >= source_count()) return false;
-  uint place = source_first + i;
+  uint place = place_of(i);
   point = source_points[place];
   id = source_has_ids ? source_ids[place] : source_id_shift + place;
   return true;

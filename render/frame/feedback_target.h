@@ -22,6 +22,7 @@ class FeedbackTarget {
   const Texture2D& points() const { return points_; }
   const Texture2D& ids() const { return ids_; }
   const Texture2D& depth() const { return depth_; }
+  DepthStorage depth_storage() const { return storage_; }
 
   // No point anywhere.
   void clear();

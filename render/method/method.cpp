@@ -8,6 +8,7 @@
 #include "octree/core/error.h"
 #include "render/method/brute_force.h"
 #include "render/method/hierarchical.h"
+#include "render/method/hybrid.h"
 #include "render/method/unstructured.h"
 #include "render/store/memory_supply.h"
 #include "render/store/tree_supply.h"
@@ -15,16 +16,31 @@
 namespace stipple {
 namespace {
 
-constexpr std::array kModes{Mode::brute_force, Mode::hierarchical, Mode::unstructured};
+constexpr std::array kModes{Mode::brute_force, Mode::hierarchical, Mode::unstructured, Mode::hybrid};
 
 // Of modes that keep all points on the GPU.
-void check_room(Mode mode, std::size_t points, const MemoryLimits& limits) {
-  const std::uint64_t bytes = points * kGpuBytesPerPoint;
+void check_room(Mode mode, std::size_t points, std::uint64_t bytes, const MemoryLimits& limits) {
   if (bytes <= limits.gpu) return;
   throw Error(
       fmt::format("mode {} keeps all {} points on the GPU, {} bytes, and {} are allowed. Allow more with "
                   "--gpu-memory, or draw in mode hierarchical.",
                   name_of(mode), points, bytes, limits.gpu));
+}
+
+std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions& options) {
+  const std::uint64_t sorting = points.size() * kBytesPerPointOfOctree;
+  if (sorting > options.limits.main)
+    throw Error(
+        fmt::format("mode hybrid takes about {} bytes of memory to sort {} points, and {} are allowed. Allow more with "
+                    "--memory, or draw in mode hierarchical.",
+                    sorting, points.size(), options.limits.main));
+  const auto budget = static_cast<std::uint32_t>(std::clamp<std::size_t>(points.size(), 1, options.largest_budget));
+  const std::uint64_t clusters = ClusterCloud::clusters_for(points.size());
+  check_room(Mode::hybrid, points.size(),
+             ClusterCloud::bytes_for(points.size()) + ClusterSelector::bytes_for(clusters, budget), options.limits);
+  return std::make_unique<Hybrid>(
+      points, ClusterSelector::Options{
+                  .largest_budget = budget, .skip_occluded = options.skip_occluded, .by_yield = options.by_yield});
 }
 
 }  // namespace
@@ -41,6 +57,8 @@ std::string_view name_of(Mode mode) {
       return "hierarchical";
     case Mode::unstructured:
       return "unstructured";
+    case Mode::hybrid:
+      return "hybrid";
   }
   return "";
 }
@@ -51,15 +69,16 @@ std::optional<Mode> mode_named(std::string_view name) {
   return std::nullopt;
 }
 
-bool needs_octree(Mode mode) {
-  return mode == Mode::hierarchical;
+DatasetNeeds needs_of(Mode mode) {
+  const bool octree = mode == Mode::hierarchical;
+  return {.points = !octree, .octree = octree};
 }
 
 std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Octree* octree,
                                     const MethodOptions& options) {
   switch (mode) {
     case Mode::brute_force:
-      check_room(mode, points.size(), options.limits);
+      check_room(mode, points.size(), points.size() * kGpuBytesPerPoint, options.limits);
       return std::make_unique<BruteForce>(points);
     case Mode::hierarchical:
       if (!octree) throw Error("mode hierarchical needs an octree");
@@ -68,8 +87,10 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
                                             std::min(budget_within({.gpu = options.limits.gpu}, options.largest_budget),
                                                      static_cast<std::uint32_t>(points.size())));
     case Mode::unstructured:
-      check_room(mode, points.size(), options.limits);
+      check_room(mode, points.size(), points.size() * kGpuBytesPerPoint, options.limits);
       return std::make_unique<Unstructured>(points, options.seed);
+    case Mode::hybrid:
+      return make_hybrid(points, options);
   }
   return nullptr;
 }

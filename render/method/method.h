@@ -27,9 +27,11 @@ struct Selection {
   std::uint64_t points = 0;
 };
 
-// Sums since the method was made, but for nodes_visible, which is the current view's.
+// Sums since the method was made, but for the nodes, which are the current view's.
 struct SelectionCounts {
-  std::uint64_t nodes_visible = 0;
+  std::uint64_t nodes_visible = 0;  // hybrid: clusters
+  std::uint64_t nodes_occluded =
+      0;                         // of those, not drawn further because all they have left is hidden; hybrid: clusters
   std::uint64_t bytes_read = 0;  // from disk, the opening of the tree included, or streamed from main memory to the GPU
 };
 
@@ -38,28 +40,34 @@ class Method {
   virtual ~Method() = default;
 
   virtual Carry carry() const = 0;
+  // Nothing is carried into the next frame: it starts from an empty target, as the first did.
+  virtual void forget() {}
   // The view changed: every point may be worth drawing again.
   virtual void start_view(const View& view) = 0;
-  // The next points for this view, at most `budget`. Valid until the next call.
+  // The next points for this view, at most `budget`. Valid until the next call. The view block is bound.
   virtual Selection select(std::uint32_t budget) = 0;
+  // The frame with the selected points is drawn; the view block is still bound.
+  virtual void frame_drawn(const FeedbackTarget&) {}
   // Nothing is left for this view: the picture equals the brute-force picture.
   virtual bool finished() const = 0;
   virtual SelectionCounts counts() const { return {}; }
 };
 
-enum class Mode { brute_force, hierarchical, unstructured };
+enum class Mode { brute_force, hierarchical, unstructured, hybrid };
 
 std::span<const Mode> all_modes();
-// "brute-force", "hierarchical", "unstructured".
+// "brute-force", "hierarchical", "unstructured", "hybrid".
 std::string_view name_of(Mode mode);
 std::optional<Mode> mode_named(std::string_view name);
-// Whether the mode draws from an octree, in memory or on disk; then it needs no points in memory if that is on disk.
-bool needs_octree(Mode mode);
+// What the mode draws from: all points in memory, or an octree, which may stay on disk.
+DatasetNeeds needs_of(Mode mode);
 
 struct MethodOptions {
   std::uint64_t seed = 0;                  // of the shuffle
   std::uint32_t largest_budget = 1 << 20;  // points select() may be asked for; limits may allow fewer
   MemoryLimits limits{};
+  bool skip_occluded = true;  // hybrid: leave out clusters that are wholly hidden
+  bool by_yield = true;       // hybrid: clusters whose points are seen go first
 };
 
 // Points (and the tree, where the mode needs one: points then stand in its store order) must outlive the method.

@@ -20,6 +20,7 @@ ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasteriz
 void ProgressiveRenderer::resize(const glm::ivec2& size) {
   for (auto& target : targets_) target.emplace(size, rasterizer_->depth_storage());
   if (method_.carry() == Carry::vertices) vertices_.emplace(size);
+  method_.forget();
 }
 
 void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
@@ -54,6 +55,7 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   }
   current().clear();
   coverage_.count(current());
+  method_.forget();
   view_ = {};
   glFinish();
 }
@@ -68,11 +70,12 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   // A view of nothing is finished before it begins, but the last view's picture must go
   if (view_drawn_ && method_.finished()) return {0, true};
 
+  uniforms_.set(make_view_block(view, grid_, point_size_));
   Selection selection = method_.select(budget);
   current_ = 1 - current_;
   append_carry(selection.items);
-  uniforms_.set(make_view_block(view, grid_, point_size_));
   rasterizer_->draw(current(), selection.items);
+  method_.frame_drawn(current());
   if (vertices_) vertices_->prepare(current());
   view_drawn_ = true;
   return {selection.points, method_.finished()};

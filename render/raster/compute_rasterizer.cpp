@@ -22,7 +22,7 @@ void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> i
     } else if (const auto* grid = std::get_if<CarriedGrid>(&item)) {
       dispatch_pixels(grid->previous->size());
     } else {
-      dispatch_items(std::get<PointRange>(item).count, kRasterGroupSize);
+      dispatch_items(item_capacity(item), kRasterGroupSize);
     }
   }
 }

@@ -34,7 +34,16 @@ struct CarriedGrid {
   const FeedbackTarget* previous = nullptr;
 };
 
-using DrawItem = std::variant<PointRange, CarriedVertices, CarriedGrid>;
+// Points of a buffer, picked by their places in it.
+struct PickedPoints {
+  const GpuBuffer* points = nullptr;
+  const GpuBuffer* ids = nullptr;     // uint32 a point
+  const GpuBuffer* places = nullptr;  // uint32
+  std::uint32_t first = 0;            // of the places
+  std::uint32_t count = 0;
+};
+
+using DrawItem = std::variant<PointRange, CarriedVertices, CarriedGrid, PickedPoints>;
 
 // Layout of CarriedCommand in shaders/packing.glsl.
 struct CarriedCommand {

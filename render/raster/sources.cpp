@@ -33,6 +33,15 @@ void bind(const CarriedGrid& grid) {
   grid.previous->ids().bind(1);
 }
 
+void bind(const PickedPoints& picked) {
+  picked.points->bind_storage(0);
+  picked.ids->bind_storage(1);
+  picked.places->bind_storage(2);
+  glUniform1ui(0, picked.first);
+  glUniform1ui(1, picked.count);
+  glUniform1i(3, 1);
+}
+
 }  // namespace
 
 void SourcePrograms::use_for(const DrawItem& item) const {
@@ -55,6 +64,7 @@ void TieNotes::settle() {
 
 std::size_t item_capacity(const DrawItem& item) {
   if (const auto* range = std::get_if<PointRange>(&item)) return range->count;
+  if (const auto* picked = std::get_if<PickedPoints>(&item)) return picked->count;
   if (const auto* grid = std::get_if<CarriedGrid>(&item))
     return static_cast<std::size_t>(grid->previous->size().x) * static_cast<std::size_t>(grid->previous->size().y);
   return std::get<CarriedVertices>(item).points->bytes() / sizeof(PackedPoint);

@@ -42,6 +42,11 @@ struct DatasetNeeds {
   bool octree = false;  // an octree, in memory where the input is none itself
 };
 
+// What serves both.
+inline DatasetNeeds operator|(const DatasetNeeds& a, const DatasetNeeds& b) {
+  return {a.points || b.points, a.octree || b.octree};
+}
+
 // Opens, reads and colours `path` (see open_source() and choose_color()). Throws Error before it reads points that
 // limits.main has no room for.
 Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs,

@@ -36,6 +36,12 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
                      "comes on top. A cloud that needs more is refused, unless it is an octree drawn in mode "
                      "hierarchical: then the budget is cut to what fits. Default: no limit.");
   command.add_option("--gpu-memory", options.gpu_memory, "The same for memory of the GPU. Default: no limit.");
+  command
+      .add_option(
+          "--no-skip", options.no_skip,
+          "What mode hybrid is to do without, to see what it is worth: occlusion (leaving out clusters that are "
+          "wholly hidden), yield (clusters whose points are seen go first), or both, separated by a comma.")
+      ->delimiter(',');
 }
 
 RasterizerKind rasterizer_of(const DrawOptions& options) {
@@ -61,6 +67,20 @@ MemoryLimits limits_of(const DrawOptions& options) {
   if (!options.memory.empty()) limits.main = parse_bytes("--memory", options.memory, kLeast);
   if (!options.gpu_memory.empty()) limits.gpu = parse_bytes("--gpu-memory", options.gpu_memory, kLeast);
   return limits;
+}
+
+MethodOptions method_options_of(const DrawOptions& options) {
+  MethodOptions method{
+      .seed = options.seed, .largest_budget = largest_budget(budget_of(options)), .limits = limits_of(options)};
+  for (const std::string& name : options.no_skip) {
+    if (name == "occlusion")
+      method.skip_occluded = false;
+    else if (name == "yield")
+      method.by_yield = false;
+    else
+      throw UsageError(fmt::format("--no-skip {}: expected occlusion or yield", name));
+  }
+  return method;
 }
 
 Until parse_until(std::string_view text) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "render/raster/rasterizer.h"
 #include "render/store/memory_limits.h"
@@ -23,6 +24,7 @@ struct DrawOptions {
   std::uint64_t seed = 0;
   std::string memory;
   std::string gpu_memory;
+  std::vector<std::string> no_skip;
 };
 
 void add_draw_options(CLI::App& command, DrawOptions& options);
@@ -31,6 +33,8 @@ void add_draw_options(CLI::App& command, DrawOptions& options);
 RasterizerKind rasterizer_of(const DrawOptions& options);
 BudgetPolicy budget_of(const DrawOptions& options);
 MemoryLimits limits_of(const DrawOptions& options);
+// Seed, largest budget, limits and what hybrid may skip.
+MethodOptions method_options_of(const DrawOptions& options);
 // "converged", "frame:N" or "ms:T".
 Until parse_until(std::string_view text);
 

@@ -85,9 +85,7 @@ Picture draw_reference(const Dataset& dataset, const View& view, double point_si
 Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, const View& view, double point_size) {
   const BudgetPolicy policy = budget_of(options.draw);
   const HeadlessContext context;
-  const auto method = make_method(
-      mode, dataset,
-      {.seed = options.draw.seed, .largest_budget = largest_budget(policy), .limits = limits_of(options.draw)});
+  const auto method = make_method(mode, dataset, method_options_of(options.draw));
   ProgressiveRenderer renderer(*method, rasterizer_of(options.draw), dataset.points.grid, point_size);
   const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
   const SelectionCounts counts = method->counts();
@@ -99,7 +97,7 @@ Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, 
                    {"ms", state.milliseconds},
                    {"covered_pixels", state.covered_pixels},
                    {"nodes_visible", counts.nodes_visible},
-                   {"nodes_occluded", 0},
+                   {"nodes_occluded", counts.nodes_occluded},
                    {"bytes_read", counts.bytes_read}};
   picture.stats.update(context_provenance(context));
   return picture;
@@ -130,18 +128,17 @@ void run(const Options& options) {
   const std::optional<Mode> mode = mode_named(options.mode);
   if (!mode && options.mode != kReference)
     throw UsageError(
-        fmt::format("--mode {}: expected reference, brute-force, hierarchical or unstructured", options.mode));
+        fmt::format("--mode {}: expected reference, brute-force, hierarchical, unstructured or hybrid", options.mode));
   const glm::ivec2 size = parse_size("--size", options.draw.size);
   const double point_size = parse_positive("--point-size", options.draw.point_size);
   const std::uint32_t background = parse_color("--background", options.draw.background);
   rasterizer_of(options.draw);
   budget_of(options.draw);
-  const MemoryLimits limits = limits_of(options.draw);
+  const MethodOptions method = method_options_of(options.draw);
   parse_until(options.until);
 
-  // Methods that draw from an octree leave it on disk where it is there
-  const bool tree = mode && needs_octree(*mode);
-  const Dataset dataset = open_dataset(options.inputs, options.draw.color, {.points = !tree, .octree = tree}, limits);
+  const Dataset dataset =
+      open_dataset(options.inputs, options.draw.color, mode ? needs_of(*mode) : DatasetNeeds{}, method.limits);
   for (const std::string& warning : dataset.info.warnings) warn(warning);
   const Camera camera = camera_of(options, dataset, static_cast<double>(size.x) / size.y);
   const View view = make_view(camera, size, near_plane(dataset.points.grid));
@@ -152,6 +149,8 @@ void run(const Options& options) {
              {"raster", mode ? Json(options.draw.raster) : Json()},
              {"seed", options.draw.seed},
              {"budget", budget_in_use(options, dataset)},
+             {"skip_occluded", method.skip_occluded},
+             {"by_yield", method.by_yield},
              {"point_size", point_size},
              {"background", options.draw.background},
              {"load_ms", dataset.load_seconds * 1e3},
@@ -192,7 +191,8 @@ void add_render_command(CLI::App& app) {
   command
       ->add_option("--mode", options->mode,
                    "Method: reference (all points, double precision, CPU), brute-force (all points each frame), "
-                   "hierarchical (Tredinnick and others 2016) or unstructured (Schuetz and others 2019).")
+                   "hierarchical (Tredinnick and others 2016), unstructured (Schuetz and others 2019) or hybrid (ours: "
+                   "clusters of an octree by what the last frame shows).")
       ->capture_default_str();
   add_draw_options(*command, options->draw);
   CLI::Option* camera = command->add_option("--camera", options->camera,

@@ -30,7 +30,8 @@ std::vector<Mode> modes_of(const std::vector<std::string>& names) {
   std::vector<Mode> modes;
   for (const std::string& name : names) {
     const auto mode = mode_named(name);
-    if (!mode) throw UsageError(fmt::format("--modes {}: expected brute-force, hierarchical or unstructured", name));
+    if (!mode)
+      throw UsageError(fmt::format("--modes {}: expected brute-force, hierarchical, unstructured or hybrid", name));
     if (std::ranges::find(modes, *mode) == modes.end()) modes.push_back(*mode);
   }
   if (modes.empty()) modes.assign(all_modes().begin(), all_modes().end());
@@ -46,13 +47,12 @@ StudySettings settings_of(const Options& options) {
   settings.size = parse_size("--size", options.draw.size);
   settings.raster = rasterizer_of(options.draw);
   settings.budget = budget_of(options.draw);
-  settings.limits = limits_of(options.draw);
+  settings.method = method_options_of(options.draw);
   settings.seconds = parse_positive("--duration", options.duration);
   settings.repeats = options.repeats;
   settings.point_size = parse_positive("--point-size", options.draw.point_size);
   settings.color = options.draw.color;
   settings.background = parse_color("--background", options.draw.background);
-  settings.seed = options.draw.seed;
   settings.flip_every_frame = options.flip_every_frame;
   return settings;
 }
@@ -103,7 +103,7 @@ void add_study_command(CLI::App& app) {
       ->required();
   command
       ->add_option("--modes", options->modes,
-                   "Methods, separated by commas: brute-force, hierarchical, unstructured. Default: all.")
+                   "Methods, separated by commas: brute-force, hierarchical, unstructured, hybrid. Default: all.")
       ->delimiter(',');
   command->add_option("--views", options->views,
                       R"(JSON file with cameras: {"views": [{"name", "eye", "target", "up", "fov_deg"}, ...]}. )"

@@ -80,11 +80,7 @@ class InputStudy {
  private:
   fs::path folder(const char* kind) const { return fs::path(settings_.folder) / kind / name_; }
 
-  std::unique_ptr<Method> method(Mode mode) const {
-    return make_method(
-        mode, dataset_,
-        {.seed = settings_.seed, .largest_budget = largest_budget(settings_.budget), .limits = settings_.limits});
-  }
+  std::unique_ptr<Method> method(Mode mode) const { return make_method(mode, dataset_, settings_.method); }
 
   Truth truth_of(const std::string& view_name, const View& view) {
     progress_(fmt::format("{}, {}: reference", name_, view_name));
@@ -136,7 +132,7 @@ class InputStudy {
                           {"view", view_provenance(view)},
                           {"mode", curve.mode},
                           {"raster", curve.raster},
-                          {"seed", settings_.seed}};
+                          {"seed", settings_.method.seed}};
     std::optional<FrameKeeper> keeper;
     if (repeat == 0) keeper.emplace(folder("frames") / view_name / curve.mode, text_of(provenance));
     const auto drawn = method(mode);
@@ -188,9 +184,11 @@ Json settings_json(const StudySettings& settings) {
             {"target_fps", settings.budget.frames_per_second ? Json(*settings.budget.frames_per_second) : Json()},
             {"duration_s", settings.seconds},
             {"repeats", settings.repeats},
+            {"skip_occluded", settings.method.skip_occluded},
+            {"by_yield", settings.method.by_yield},
             {"point_size", settings.point_size},
             {"background", fmt::format("{:06x}", settings.background)},
-            {"seed", settings.seed},
+            {"seed", settings.method.seed},
             {"flip", settings.flip_every_frame ? "every frame" : "first frame, first at 30, 35, 40, 45 dB, last"}};
   json["clock"] = "drawing alone, each frame awaited; loading, upload, shader compiling and metrics excluded";
   return json;
@@ -200,7 +198,8 @@ Json settings_json(const StudySettings& settings) {
 
 StudyResult run_study(const StudySettings& settings, const HeadlessContext& context, const Progress& progress) {
   fs::create_directories(settings.folder);
-  const bool with_octree = std::ranges::any_of(settings.modes, needs_octree);
+  DatasetNeeds needs;  // the reference draws all points
+  for (const Mode mode : settings.modes) needs = needs | needs_of(mode);
   const std::vector<std::string> names = names_of(settings.inputs);
   std::vector<Curve> curves;
   Json datasets = Json::array();
@@ -209,9 +208,8 @@ StudyResult run_study(const StudySettings& settings, const HeadlessContext& cont
   StudyResult result;
   for (std::size_t i = 0; i < settings.inputs.size(); ++i) {
     try {
-      progress(fmt::format("{}: reading{}", names[i], with_octree ? " and building the octree" : ""));
-      const Dataset dataset =
-          open_dataset(settings.inputs[i], settings.color, {.octree = with_octree}, settings.limits);
+      progress(fmt::format("{}: reading{}", names[i], needs.octree ? " and building the octree" : ""));
+      const Dataset dataset = open_dataset(settings.inputs[i], settings.color, needs, settings.method.limits);
       InputStudy(settings, names[i], dataset, progress).run(curves, summaries, views);
       Json json{{"name", names[i]}};
       json.update(dataset_provenance(dataset));

@@ -24,13 +24,12 @@ struct StudySettings {
   glm::ivec2 size{1280, 720};
   RasterizerKind raster = RasterizerKind::compute;
   BudgetPolicy budget;
-  MemoryLimits limits;
+  MethodOptions method;
   double seconds = 120.0;  // of drawing, at most, for each curve
   int repeats = 1;
   double point_size = 1.0;
   std::string color;
   std::uint32_t background = 0x808080;
-  std::uint64_t seed = 0;
   bool flip_every_frame = false;  // or only at QualityMarks and the last frame
 };
 

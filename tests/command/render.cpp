@@ -51,7 +51,7 @@ TEST_F(RenderCommand, EveryModeAndRasterEndsWithTheSamePictureAndFullStats) {
   for (const std::string raster : kRasters) {
     const Image all = picture("brute-force.png", "--mode brute-force --raster " + raster);
     EXPECT_GT(psnr_db(mean_squared_error(all, reference)), raster == "compute" ? 35.0 : 15.0);
-    for (const std::string mode : {"brute-force", "hierarchical", "unstructured"}) {
+    for (const std::string mode : {"brute-force", "hierarchical", "unstructured", "hybrid"}) {
       const std::string name = mode + "-" + raster;
       const Image drawn = picture(
           name + ".png", "--mode " + mode + " --raster " + raster + " --budget 3k --stats " + path("stats.json"));
@@ -66,7 +66,7 @@ TEST_F(RenderCommand, EveryModeAndRasterEndsWithTheSamePictureAndFullStats) {
       EXPECT_EQ(stats.at("points_total"), kPoints);
       EXPECT_EQ(stats.at("converged"), true);
       EXPECT_EQ(stats.at("frames").get<int>() > 1, mode != "brute-force") << name;
-      EXPECT_EQ(stats.at("nodes_visible").get<int>() > 0, mode == "hierarchical") << name;
+      EXPECT_EQ(stats.at("nodes_visible").get<int>() > 0, mode == "hierarchical" || mode == "hybrid") << name;
     }
   }
 }
@@ -218,7 +218,7 @@ TEST_F(RenderCommand, APathThatIsNoUtf8IsDrawnAllTheSame) {
 TEST_F(RenderCommand, AnEmptyCloudAndASinglePointAreDrawn) {
   for (const std::size_t points : {std::size_t{0}, std::size_t{1}}) {
     const std::string file = folder_.write("few.las", LasFile{.points = points}.bytes());
-    for (const std::string mode : {"reference", "brute-force", "hierarchical", "unstructured"}) {
+    for (const std::string mode : {"reference", "brute-force", "hierarchical", "unstructured", "hybrid"}) {
       const Outcome outcome =
           run_stipple(folder_, "render " + file + " --size 16x9 --json -o " + path("few.png") + " --mode " + mode);
       ASSERT_EQ(outcome.code, 0) << mode << ": " << outcome.err;
@@ -227,6 +227,27 @@ TEST_F(RenderCommand, AnEmptyCloudAndASinglePointAreDrawn) {
       EXPECT_EQ(stats.at("covered_pixels"), points) << mode;
     }
   }
+}
+
+TEST_F(RenderCommand, HybridDoesWithoutWhatItIsTold) {
+  const Image all = picture("all.png", "--mode hybrid --stats " + path("all.json"));
+  EXPECT_EQ(picture("less.png", "--mode hybrid --no-skip occlusion,yield --stats " + path("less.json")).rgb, all.rgb);
+  EXPECT_EQ(json_file(path("all.json")).at("skip_occluded"), true);
+  const Json less = json_file(path("less.json"));
+  EXPECT_EQ(less.at("skip_occluded"), false);
+  EXPECT_EQ(less.at("by_yield"), false);
+  EXPECT_EQ(less.at("nodes_occluded"), 0);
+  expect_wrong_usage("--mode hybrid --no-skip everything", "--no-skip everything");
+}
+
+TEST_F(RenderCommand, HybridLoadsATreeFromDisk) {
+  const std::string tree = path("city.tree");
+  ASSERT_EQ(run_stipple(folder_, "build " + city_ + " -o " + tree).code, 0);
+  for (const std::string mode : {"hybrid", "hierarchical"})
+    ASSERT_EQ(
+        run_stipple(folder_, "render " + tree + " --size 160x90 -o " + path(mode + ".png") + " --mode " + mode).code,
+        0);
+  EXPECT_EQ(read_png(path("hybrid.png")).rgb, read_png(path("hierarchical.png")).rgb);
 }
 
 TEST_F(RenderCommand, AFrameRateInsteadOfABudgetConvergesToo) {

@@ -226,7 +226,7 @@ TEST_P(EachRasterizerCarries, AwkwardCloudsAndViewsConvergeToBruteForce) {
     const auto budget = static_cast<std::uint32_t>(20 + random() % 400);
     const FrameData expected = brute_force_picture(dataset.points, GetParam(), view, point_size);
     covered += expected.covered_pixels();
-    for (const Mode mode : {Mode::hierarchical, Mode::unstructured}) {
+    for (const Mode mode : {Mode::hierarchical, Mode::unstructured, Mode::hybrid}) {
       const auto method = make_method(mode, dataset.points, &*dataset.octree, {.seed = random()});
       ProgressiveRenderer renderer(*method, GetParam(), dataset.points.grid, point_size);
       // A few frames of another view first

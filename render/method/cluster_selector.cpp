@@ -1,0 +1,191 @@
+#include "render/method/cluster_selector.h"
+
+#include <algorithm>
+#include <string>
+
+namespace stipple {
+namespace {
+
+// Layouts of shaders/clusters.glsl.
+struct ClusterState {
+  std::uint32_t start, drawn, status;
+  float seen;
+};
+struct Stretch {
+  std::uint32_t cluster, begin, first, count;
+};
+struct Totals {
+  std::uint32_t points, stretches, open, visible, occluded;
+  std::int32_t cut;
+  std::uint32_t allowance, factor;
+};
+struct ChunkBegin {
+  std::uint32_t point, stretch;
+};
+constexpr std::size_t kUrgencies = 1024;
+constexpr std::size_t kSummaryHead = sizeof(Totals) + ClusterCloud::kMostChunks * sizeof(ChunkBegin);
+
+constexpr std::size_t kProspectBytes = 3 * sizeof(float);
+
+// Clusters that one invocation of the scan works off.
+constexpr std::size_t kBlock = 32;
+
+std::size_t blocks_of(std::size_t clusters) {
+  return (clusters + kBlock - 1) / kBlock;
+}
+
+Program compile(const char* shader, std::vector<ShaderDefine> defines = {}) {
+  defines.push_back({"MOST_CHUNKS", std::to_string(ClusterCloud::kMostChunks)});
+  defines.push_back({"LEVELS", std::to_string(ClusterCloud::kLevels) + "u"});
+  defines.push_back({"BLOCK", std::to_string(kBlock) + "u"});
+  return Program::compute(shader, defines);
+}
+
+}  // namespace
+
+ClusterSelector::ClusterSelector(const ClusterCloud& cloud, const Options& options)
+    : cloud_(cloud),
+      options_(options),
+      test_from_image_(compile("select_test.glsl")),
+      test_from_attachment_(compile("select_test.glsl", {{"FROM_ATTACHMENT"}})),
+      score_(compile("select_score.glsl")),
+      cut_(compile("select_cut.glsl")),
+      sums_(compile("select_scan.glsl", {{"SCAN_SUMS"}})),
+      scan_(compile("select_scan.glsl")),
+      take_(compile("select_take.glsl")),
+      expand_(compile("expand_stretch.glsl")),
+      yield_(compile("measure_yield.glsl")),
+      states_(cloud.clusters() * sizeof(ClusterState)),
+      open_clusters_(cloud.clusters() * sizeof(std::uint32_t)),
+      wishes_(cloud.clusters() * sizeof(std::uint32_t)),
+      summary_(kSummaryHead + kUrgencies * sizeof(std::uint32_t)),
+      prospects_(cloud.clusters() * kProspectBytes),
+      block_sums_(blocks_of(cloud.clusters()) * sizeof(glm::uvec4)),
+      stretches_(cloud.clusters() * sizeof(Stretch)),
+      places_(options.largest_budget * sizeof(std::uint32_t)) {
+  forget();
+}
+
+std::uint64_t ClusterSelector::bytes_for(std::uint64_t clusters, std::uint64_t budget) {
+  return clusters * (sizeof(ClusterState) + sizeof(Stretch) + 2 * sizeof(std::uint32_t) + kProspectBytes) +
+         budget * sizeof(std::uint32_t);
+}
+
+void ClusterSelector::forget() {
+  states_.fill(0);
+  drawn_ = nullptr;
+}
+
+ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t budget, bool new_view) {
+  taken_.clear();
+  if (cloud_.clusters() == 0) return {};
+  if (new_view) drawn_ = nullptr;
+  test(new_view);
+  score(view);
+  rank(std::min(budget, options_.largest_budget));
+  Result result = read_back();
+  open_ = result.open;
+  taken_ = result.chunks;
+
+  expand_.use();
+  places_.bind_storage(2);
+  const std::uint32_t stretches = taken_.back().first_stretch + taken_.back().stretches;
+  glUniform1ui(0, stretches);
+  dispatch_items(stretches, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  return result;
+}
+
+void ClusterSelector::test(bool new_view) {
+  const bool attachment = drawn_ && drawn_->depth_storage() == DepthStorage::attachment;
+  (attachment ? test_from_attachment_ : test_from_image_).use();
+  if (drawn_) drawn_->depth().bind(0);
+  cloud_.boxes().bind_storage(0);
+  states_.bind_storage(1);
+  cloud_.log_pixels().bind_storage(2);
+  pyramid_.values().bind_storage(3);
+  prospects_.bind_storage(7);
+  open_clusters_.bind_storage(4);
+  const std::uint32_t tested = new_view ? cloud_.clusters() : open_;
+  glUniform1ui(0, tested);
+  glUniform1i(1, new_view ? 1 : 0);
+  glUniform1i(3, drawn_ && options_.skip_occluded ? static_cast<GLint>(pyramid_.levels()) : 0);
+  glUniform1f(4, static_cast<float>(cloud_.root_edge()));
+  glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid_.level_table()[0].first);
+  dispatch_items(tested, 64);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void ClusterSelector::score(const View& view) {
+  summary_.fill(0);
+  wishes_.bind_storage(4);
+  summary_.bind_storage(5);
+  score_.use();
+  glUniform1ui(0, cloud_.clusters());
+  glUniform1i(1, options_.by_yield ? 1 : 0);
+  glUniform1f(2, static_cast<float>(view.near));
+  dispatch_items(cloud_.clusters(), 64);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void ClusterSelector::rank(std::uint32_t budget) {
+  open_clusters_.bind_storage(2);
+  block_sums_.bind_storage(6);
+  stretches_.bind_storage(7);
+  cut_.use();
+  glUniform1ui(0, budget);
+  glDispatchCompute(1, 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  sums_.use();
+  glUniform1ui(0, cloud_.clusters());
+  dispatch_items(blocks_of(cloud_.clusters()), 64);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  scan_.use();
+  glUniform1ui(0, static_cast<GLuint>(blocks_of(cloud_.clusters())));
+  glDispatchCompute(1, 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  take_.use();
+  glUniform1ui(0, cloud_.clusters());
+  dispatch_items(blocks_of(cloud_.clusters()), 64);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+ClusterSelector::Result ClusterSelector::read_back() {
+  struct {
+    Totals totals;
+    std::array<ChunkBegin, ClusterCloud::kMostChunks + 1> begins;
+  } head;
+  const std::size_t chunks = cloud_.chunks().size();
+  summary_.read(0, &head, sizeof(Totals) + chunks * sizeof(ChunkBegin));
+  head.begins[chunks] = {head.totals.points, head.totals.stretches};
+  Result result{{}, head.totals.points, head.totals.open, head.totals.visible, head.totals.occluded};
+  for (std::size_t c = 0; c < chunks; ++c) {
+    const ChunkBegin& begin = head.begins[c];
+    const ChunkBegin& end = head.begins[c + 1];
+    result.chunks.push_back({begin.point, end.point - begin.point, begin.stretch, end.stretch - begin.stretch});
+  }
+  return result;
+}
+
+void ClusterSelector::learn(const FeedbackTarget& frame) {
+  if (options_.by_yield) {
+    yield_.use();
+    frame.ids().bind(1);
+    states_.bind_storage(2);
+    places_.bind_storage(3);
+    stretches_.bind_storage(7);
+    for (std::size_t c = 0; c < taken_.size(); ++c) {
+      if (taken_[c].stretches == 0) continue;
+      cloud_.chunks()[c].points.bind_storage(0);
+      cloud_.chunks()[c].ids.bind_storage(1);
+      glUniform1ui(0, taken_[c].first_stretch);
+      glUniform1ui(1, taken_[c].first_stretch + taken_[c].stretches);
+      dispatch_items(taken_[c].stretches, 64);
+    }
+  }
+  if (options_.skip_occluded) pyramid_.build(frame);
+  drawn_ = &frame;
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+}  // namespace stipple

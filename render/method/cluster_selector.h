@@ -1,0 +1,90 @@
+// Which clusters go on in a frame, and by how many points: decided on the GPU.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/frame/camera.h"
+#include "render/frame/depth_pyramid.h"
+#include "render/store/cluster_cloud.h"
+
+namespace stipple {
+
+// Each call of select() tests against the frustum and the depth drawn so far, all clusters for a new view and later
+// those that are open still; ranks those left by urgency; and takes as many points as the budget has, the most urgent
+// first. What each asks for is the number of pixels it can cover. Clusters no point of which has been drawn come first,
+// near ones before far ones, then those whose latest points won most pixels. Passes: shaders/clusters.glsl. The same
+// budget takes the same points on any machine that computes the same floats.
+//
+// Of what is selected, the CPU reads back the totals alone: it waits for the frames before.
+class ClusterSelector {
+ public:
+  struct Options {
+    std::uint32_t largest_budget;
+    bool skip_occluded;
+    bool by_yield;
+  };
+  // Of one chunk.
+  struct Taken {
+    std::uint32_t first_place = 0;  // of places()
+    std::uint32_t points = 0;
+    std::uint32_t first_stretch = 0;
+    std::uint32_t stretches = 0;
+  };
+  struct Result {
+    std::vector<Taken> chunks;  // one for each of the cloud's
+    std::uint32_t points = 0;
+    std::uint32_t open = 0;      // clusters with points left
+    std::uint32_t visible = 0;   // clusters in the frustum
+    std::uint32_t occluded = 0;  // of them
+  };
+
+  // The cloud must outlive the selector.
+  ClusterSelector(const ClusterCloud& cloud, const Options& options);
+
+  // No point was drawn ever.
+  void forget();
+  // At most `budget` points. The block of `view` is bound. `new_view`: every point is to be drawn again, though
+  // clusters go on with the points that come next.
+  Result select(const View& view, std::uint32_t budget, bool new_view);
+  // What select() chose is drawn, in this frame and the view whose block is bound: sees what came of it. The frame
+  // must stay as it is until the next select() or forget().
+  void learn(const FeedbackTarget& frame);
+
+  // Places in the chunks' buffers of the points taken.
+  const GpuBuffer& places() const { return places_; }
+  // Bytes of GPU memory it takes.
+  static std::uint64_t bytes_for(std::uint64_t clusters, std::uint64_t budget);
+
+ private:
+  void test(bool new_view);
+  void score(const View& view);
+  void rank(std::uint32_t budget);
+  Result read_back();
+
+  const ClusterCloud& cloud_;
+  Options options_;
+  DepthPyramid pyramid_;
+  const FeedbackTarget* drawn_ = nullptr;  // in this view; null: nothing yet
+  std::uint32_t open_ = 0;                 // clusters open after the last select()
+  Program test_from_image_;
+  Program test_from_attachment_;
+  Program score_;
+  Program cut_;
+  Program sums_;
+  Program scan_;
+  Program take_;
+  Program expand_;
+  Program yield_;
+  GpuBuffer states_;
+  GpuBuffer open_clusters_;
+  GpuBuffer wishes_;
+  GpuBuffer summary_;
+  GpuBuffer prospects_;
+  GpuBuffer block_sums_;
+  GpuBuffer stretches_;
+  GpuBuffer places_;
+  std::vector<Taken> taken_;
+};
+
+}  // namespace stipple

@@ -1,0 +1,60 @@
+// What the passes that select clusters share (render/method/cluster_selector.cpp drives them):
+//   select_test    which clusters can be seen: frustum, depth already drawn
+//   select_score   what each would draw next, and how urgently
+//   select_cut     how urgent is urgent enough for the budget
+//   select_scan    prefix sums over the clusters that are, in two steps
+//   select_take    these clusters go on by a stretch each
+//   expand_stretch the places of a stretch's points
+//   measure_yield  how many of a stretch's points are seen once they are drawn
+struct ClusterBox {
+  ivec3 low;    // tight, closed
+  uint place;   // of its first point in its chunk's buffer, and the chunk above kPlaceBits
+  ivec3 high;
+  uint count;   // points
+};
+
+const uint kPlaceBits = 22;
+const uint kPlaceMask = (1u << kPlaceBits) - 1u;
+
+// Of this view. A cluster's points are drawn in circles: from `start` on, `drawn` of them until now.
+struct ClusterState {
+  uint start;
+  uint drawn;
+  uint status;
+  float seen;  // share of its latest points that won their pixel: the yield
+};
+
+// What there is to win, as of the last test.
+struct Prospect {
+  float pixels;    // that all of its points are estimated to cover
+  float distance;  // of the nearest place along the line of sight, world units, that of the near plane at least
+  float open;      // share of the places under its outline where it may be seen
+};
+
+const uint kOpen = 0u;
+const uint kOutside = 1u;
+const uint kOccluded = 2u;
+
+// Points of one cluster to draw in this frame.
+struct Stretch {
+  uint cluster;
+  uint begin;  // of all stretches' points
+  uint first;  // of the cluster's circle
+  uint count;  // may be 0
+};
+
+// What a cluster asks for: points in the lower bits, urgency in the upper.
+const uint kWishBits = 22;
+const uint kWishMask = (1u << kWishBits) - 1u;
+const uint kUrgencies = 1024;
+
+struct Totals {
+  uint points;     // taken in this frame
+  uint stretches;
+  uint open;       // clusters with points left after it
+  uint visible;    // clusters in the frustum
+  uint occluded;   // of those, wholly behind what is drawn
+  int cut;         // clusters above this urgency are taken whole, those of it as far as `allowance` goes
+  uint allowance;
+  uint factor;     // of what each asks for, where that is less than the budget
+};

@@ -1,0 +1,145 @@
+// What mode hybrid leaves out, and that it leaves out nothing else.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "render/method/progressive_renderer.h"
+#include "tests/render/gl_test.h"
+
+namespace stipple::test {
+namespace {
+
+class HybridRasterizer : public testing::TestWithParam<RasterizerKind> {};
+INSTANTIATE_TEST_SUITE_P(Rasterizers, HybridRasterizer,
+                         testing::Values(RasterizerKind::points, RasterizerKind::compute),
+                         [](const auto& param) { return std::string(name_of(param.param)); });
+
+// What a still view takes to converge.
+struct Converged {
+  std::uint64_t points = 0;
+  SelectionCounts counts;
+  FrameData picture;
+};
+
+Converged converge(const PointSet& points, RasterizerKind kind, const View& view, std::uint32_t budget,
+                   const MethodOptions& options = {}) {
+  const auto method = make_method(Mode::hybrid, points, nullptr, options);
+  ProgressiveRenderer renderer(*method, kind, points.grid);
+  Converged run;
+  for (FrameReport report; !report.converged;) {
+    report = renderer.draw(view, budget);
+    run.points += report.points_filled;
+  }
+  run.counts = method->counts();
+  run.picture = renderer.read();
+  return run;
+}
+
+constexpr int kWallPoints = 100'000;
+// Millimetres that the second wall stands behind the first.
+constexpr int kGap = 500;
+
+// Two walls across the line of sight of front_view, the second wholly behind the first.
+PointSet two_walls() {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> front(-600, 600);
+  std::uniform_int_distribution<int> back(-300, 300);
+  std::vector<glm::ivec3> positions;
+  for (int i = 0; i < kWallPoints; ++i) positions.push_back({front(random), 0, front(random)});
+  for (int i = 0; i < kWallPoints; ++i) positions.push_back({back(random), kGap, back(random)});
+  return points_at(positions);
+}
+
+TEST_P(HybridRasterizer, AHiddenWallIsHardlyDrawn) {
+  const PointSet points = two_walls();
+  const View view = front_view(1.5, {96, 54});
+  const Converged run = converge(points, GetParam(), view, 5'000);
+  EXPECT_TRUE(same_picture(run.picture, brute_force_picture(points, GetParam(), view)));
+  EXPECT_LT(run.points, kWallPoints * 5 / 4);
+  EXPECT_GT(run.counts.nodes_occluded, 200u);
+
+  const Converged all = converge(points, GetParam(), view, 5'000, {.skip_occluded = false});
+  EXPECT_TRUE(same_picture(all.picture, run.picture));
+  EXPECT_EQ(all.points, 2u * kWallPoints);
+  EXPECT_EQ(all.counts.nodes_occluded, 0u);
+}
+
+TEST_P(HybridRasterizer, ATieWithWhatIsDrawnIsNotHidden) {
+  // All in one plane: every later point may have the lower id
+  std::mt19937 random(8);
+  std::uniform_int_distribution<int> place(-100, 100);
+  std::vector<glm::ivec3> positions;
+  for (int i = 0; i < 50'000; ++i) positions.push_back({place(random), 0, place(random)});
+  const PointSet points = points_at(positions);
+  const View view = front_view(2.0, {96, 54});
+  const Converged run = converge(points, GetParam(), view, 1'000);
+  EXPECT_TRUE(same_picture(run.picture, brute_force_picture(points, GetParam(), view)));
+  EXPECT_EQ(run.counts.nodes_occluded, 0u);
+  EXPECT_EQ(run.points, positions.size());
+}
+
+TEST_P(HybridRasterizer, EveryOptionEndsWithTheSamePicture) {
+  const Dataset& dataset = scene("city", 200'000);
+  const View view = view_of(dataset, "oblique", {96, 54});
+  const FrameData expected = brute_force_picture(dataset.points, GetParam(), view);
+  for (const bool occlusion : {false, true})
+    for (const bool yield : {false, true})
+      EXPECT_TRUE(same_picture(
+          converge(dataset.points, GetParam(), view, 20'000, {.skip_occluded = occlusion, .by_yield = yield}).picture,
+          expected))
+          << occlusion << yield;
+}
+
+// Dense shells around the origin, seen from outside, inside and on them: much is hidden, and nothing by much.
+PointSet shells(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  std::vector<glm::ivec3> positions;
+  for (const double radius : {300.0, 320.0, 500.0})
+    for (int i = 0; i < 30'000; ++i) {
+      const glm::dvec3 direction(normal(random), normal(random), normal(random));
+      positions.push_back(glm::ivec3(glm::normalize(direction) * (radius + 4.0 * normal(random))));
+    }
+  return points_at(positions);
+}
+
+TEST_P(HybridRasterizer, RandomViewsChangedMidwayConvergeToBruteForce) {
+  std::mt19937 random(20'27);
+  const auto number = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+  const PointSet points = shells(random);
+  for (const double point_size : {1.0, 3.0, 0.5}) {
+    if (GetParam() == RasterizerKind::points && point_size < 1.0) continue;
+    const auto method = make_method(Mode::hybrid, points, nullptr);
+    ProgressiveRenderer renderer(*method, GetParam(), points.grid, point_size);
+    std::uint64_t occluded = 0;
+    for (int round = 0; round < 12; ++round) {
+      View view = front_view(0.01 * number(1, 200), {number(40, 90), number(30, 60)});
+      view.eye += glm::dvec3(0.001 * number(-300, 300), 0.0, 0.001 * number(-300, 300));
+      const auto budget = static_cast<std::uint32_t>(number(3'000, 20'000));
+      // Some views are left before they converge
+      if (number(0, 2) == 0) {
+        for (int frame = 0; frame < 4; ++frame) renderer.draw(view, budget);
+        continue;
+      }
+      std::uint64_t filled = 0;
+      for (FrameReport report; !report.converged;) {
+        report = renderer.draw(view, budget);
+        filled += report.points_filled;
+      }
+      EXPECT_LE(filled, points.size());
+      occluded += method->counts().nodes_occluded;
+      ASSERT_TRUE(same_picture(renderer.read(), brute_force_picture(points, GetParam(), view, point_size)))
+          << "round " << round << ", point size " << point_size;
+      EXPECT_EQ(renderer.draw(view, budget).points_filled, 0u);
+    }
+    EXPECT_GT(occluded, 300u);
+  }
+}
+
+TEST(Hybrid, RefusesMoreThanTheMemoryAllowed) {
+  const PointSet points = random_points(10'000, 500, 3);
+  EXPECT_THROW(make_method(Mode::hybrid, points, nullptr, {.limits = {.gpu = 100'000}}), std::runtime_error);
+  EXPECT_THROW(make_method(Mode::hybrid, points, nullptr, {.limits = {.main = 100'000}}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace stipple::test
