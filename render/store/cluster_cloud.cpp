@@ -16,7 +16,7 @@ namespace {
 
 static_assert(sizeof(ClusterCloud::ClusterBox) == 32);
 
-// Points of a cluster: docs/decisions/0010-hybrid.md. More where the table of clusters would outgrow what shaders reach
+// Points of a cluster: docs/decisions/0011-hybrid.md. More where the table of clusters would outgrow what shaders reach
 // on Mesa's software renderer, 128 MiB.
 constexpr std::uint64_t kClusterPoints = 128;
 constexpr std::uint64_t kMostClusters = 1'000'000;

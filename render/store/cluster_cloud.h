@@ -13,7 +13,7 @@ namespace stipple {
 
 // Clusters are stretches of the Morton curve through all points, each shuffled, so that any prefix is an even sample.
 // They are smaller and tighter than those of an octree's nodes, whose upper levels spread a sample over large cells:
-// such boxes are hardly ever hidden (docs/decisions/0010-hybrid.md). The points lie in chunks that any driver can
+// such boxes are hardly ever hidden (docs/decisions/0011-hybrid.md). The points lie in chunks that any driver can
 // address and that end where a cluster ends; beside them is a table of the clusters for shaders/clusters.glsl.
 class ClusterCloud {
  public:
