@@ -25,7 +25,9 @@ class Hierarchical final : public Method {
   void start_view(const View& view) override;
   Selection select(std::uint32_t budget) override;
   bool finished() const override { return to_request_ == 0 && under_way_ == 0 && !supply_->searching(); }
-  SelectionCounts counts() const override { return {supply_->visible_nodes(), supply_->bytes_read()}; }
+  SelectionCounts counts() const override {
+    return {.nodes_visible = supply_->visible_nodes(), .bytes_read = supply_->bytes_read()};
+  }
 
  private:
   struct Reading {

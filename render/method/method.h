@@ -29,10 +29,10 @@ struct Selection {
 
 // Sums since the method was made, but for the nodes, which are the current view's.
 struct SelectionCounts {
-  std::uint64_t nodes_visible = 0;  // hybrid: clusters
-  std::uint64_t nodes_occluded =
-      0;                         // of those, not drawn further because all they have left is hidden; hybrid: clusters
-  std::uint64_t bytes_read = 0;  // from disk, the opening of the tree included, or streamed from main memory to the GPU
+  std::uint64_t nodes_visible{};  // hybrid: clusters
+  // Of those, not drawn further because all they have left is hidden; hybrid: clusters.
+  std::uint64_t nodes_occluded{};
+  std::uint64_t bytes_read{};  // from disk, the opening of the tree included, or streamed from main memory to the GPU
 };
 
 class Method {

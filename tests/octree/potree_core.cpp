@@ -2,16 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "octree/build/stream/tree_builder.h"
 #include "src/scene/scene.h"
 #include "tests/octree/las_fixture.h"
+#include "tests/oracles/oracle.h"
 
 namespace stipple::test {
 namespace {
@@ -39,20 +37,10 @@ Seen sums_of(const PointSource& source) {
   return seen;
 }
 
-std::string output_of(const std::string& command) {
-  std::string text;
-  std::FILE* const pipe = ::popen(command.c_str(), "r");
-  std::array<char, 4096> buffer;
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), count);
-  return ::pclose(pipe) == 0 ? text : "";
-}
-
 class PotreeCore : public testing::TestWithParam<potree2::Encoding> {};
 
 TEST_P(PotreeCore, SeesEveryPointOfOurTree) {
-  const std::string modules = STIPPLE_ORACLES;
-  if (!std::filesystem::is_directory(modules + "/potree-core")) GTEST_SKIP() << "run scripts/oracles first";
-  if (output_of("node --version").empty()) GTEST_SKIP() << "there is no node";
+  SKIP_WITHOUT_ORACLE("potree-core");
   const ScratchFolder folder;
   std::vector<std::unique_ptr<PointSource>> sources;
   sources.push_back(make_scene("city", 200'000, 1));
@@ -63,15 +51,13 @@ TEST_P(PotreeCore, SeesEveryPointOfOurTree) {
   const BuildReport report = build_tree(sources, folder.path("tree"), options, monitor);
   ASSERT_GT(report.depth, 4);
 
-  const std::string text =
-      output_of("node " STIPPLE_SOURCE "/tests/oracles/potree_core.mjs " + modules + " " + folder.path("tree"));
-  ASSERT_FALSE(text.empty());
-  const auto seen = nlohmann::json::parse(text);
+  const auto seen = ask_oracle("potree_core.mjs", folder.path("tree"));
+  ASSERT_TRUE(seen);
   const Seen expected = sums_of(*sources.front());
-  EXPECT_EQ(seen.at("points"), expected.points);
-  EXPECT_EQ(seen.at("position").get<Sums>(), expected.position);
-  EXPECT_EQ(seen.at("rgb").get<Sums>(), expected.rgb);
-  EXPECT_GE(seen.at("nodes").get<std::uint64_t>(), report.nodes);
+  EXPECT_EQ(seen->at("points"), expected.points);
+  EXPECT_EQ(seen->at("position").get<Sums>(), expected.position);
+  EXPECT_EQ(seen->at("rgb").get<Sums>(), expected.rgb);
+  EXPECT_GE(seen->at("nodes").get<std::uint64_t>(), report.nodes);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PotreeCore, testing::Values(potree2::Encoding::uncompressed, potree2::Encoding::brotli),
