@@ -88,7 +88,7 @@ TEST_F(TableInputs, GiveTheSamePicture) {
     // Three decimals of the text make a pixel here and there another one
     const Outcome compare = run("compare " + path(kind + ".png") + " " + first + " --json");
     ASSERT_EQ(compare.code, 0) << compare.err;
-    const Json& db = Json::parse(compare.out).at("psnr_db");
+    const Json db = Json::parse(compare.out).at("psnr_db");
     EXPECT_TRUE(!db.is_number() || db.get<double>() > 25.0) << kind << " " << db;
   }
 }

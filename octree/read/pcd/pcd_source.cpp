@@ -40,7 +40,7 @@ std::unique_ptr<PointTable> binary_table(std::shared_ptr<const InputFile> file, 
   if (left - header.points * stride >= stride)
     warnings.push_back(fmt::format("Behind the last point, at byte {}, the file has {} more bytes; they are not read.",
                                    header.body + header.points * stride, left - header.points * stride));
-  std::vector<RowField> fields;
+  std::vector<FieldPlace> fields;
   std::size_t offset = 0;
   for (const Field& field : header.fields) {
     if (!is_padding(field)) fields.push_back({field.field, 0, offset});
@@ -94,7 +94,7 @@ Buffer<std::byte> unpack(const InputFile& file, const Header& header) {
 std::unique_ptr<PointTable> compressed_table(const InputFile& file, const Header& header) {
   const auto columns = std::make_shared<const Buffer<std::byte>>(unpack(file, header));
   std::vector<RowPart> parts;
-  std::vector<RowField> fields;
+  std::vector<FieldPlace> fields;
   std::uint64_t begin = 0;
   for (const Field& field : header.fields) {
     if (!is_padding(field)) {

@@ -170,7 +170,7 @@ class BinaryPly {
 
   std::unique_ptr<PointTable> row_table(const Vertices& vertices) const {
     std::vector<RowPart> parts;
-    std::vector<RowField> fields(vertices.fields.size());
+    std::vector<FieldPlace> fields(vertices.fields.size());
     for (std::size_t p = 0; p < vertices.elements.size(); ++p) {
       const Element& element = header_.elements[vertices.elements[p]];
       if (element.has_list())

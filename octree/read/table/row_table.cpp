@@ -15,13 +15,13 @@ constexpr std::size_t kMaxBlockBytes = std::size_t{4} << 20;
 
 }  // namespace
 
-RowTable::RowTable(ByteReader bytes, std::vector<RowPart> parts, std::vector<RowField> fields, std::uint64_t rows,
+RowTable::RowTable(ByteReader bytes, std::vector<RowPart> parts, std::vector<FieldPlace> fields, std::uint64_t rows,
                    bool swap)
     : bytes_(std::move(bytes)), parts_(std::move(parts)), places_(std::move(fields)), rows_(rows), swap_(swap) {
   std::size_t longest = 1;
   for (const RowPart& part : parts_) longest = std::max(longest, part.stride);
   block_rows_ = std::clamp<std::size_t>(kMaxBlockBytes / longest, 1, kMaxBlockRows);
-  for (const RowField& place : places_) fields_.push_back(place.field);
+  for (const FieldPlace& place : places_) fields_.push_back(place.field);
 }
 
 std::size_t RowTable::blocks() const {
@@ -42,7 +42,7 @@ void RowTable::decode(std::size_t block, std::span<const std::size_t> fields, st
     const std::byte* const bytes = bytes_(part.begin + block * block_rows_ * part.stride, count * part.stride, scratch);
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (!in_part(fields[i])) continue;
-      const RowField& place = places_[fields[i]];
+      const FieldPlace& place = places_[fields[i]];
       Column& column = columns[i];
       gather(column.attribute.bytes(), bytes + place.offset, part.stride, count, column.bytes.data());
       const std::size_t scalar = size_of(place.field.type);

@@ -9,7 +9,7 @@
 namespace stipple {
 
 // A field's place in its rows.
-struct RowField {
+struct FieldPlace {
   TableField field;
   std::size_t part = 0;    // index into the parts
   std::size_t offset = 0;  // bytes from the row's begin
@@ -28,7 +28,7 @@ class RowTable : public PointTable {
  public:
   // All rows must be there: the caller has held their number against the size of the file. `swap`: the numbers' bytes
   // stand in the order that is not this machine's.
-  RowTable(ByteReader bytes, std::vector<RowPart> parts, std::vector<RowField> fields, std::uint64_t rows, bool swap);
+  RowTable(ByteReader bytes, std::vector<RowPart> parts, std::vector<FieldPlace> fields, std::uint64_t rows, bool swap);
 
   const std::vector<TableField>& fields() const override { return fields_; }
   std::size_t blocks() const override;
@@ -39,7 +39,7 @@ class RowTable : public PointTable {
  private:
   ByteReader bytes_;
   std::vector<RowPart> parts_;
-  std::vector<RowField> places_;
+  std::vector<FieldPlace> places_;
   std::vector<TableField> fields_;
   std::uint64_t rows_;
   std::size_t block_rows_;
