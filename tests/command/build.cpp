@@ -155,7 +155,7 @@ TEST_F(BuildCommand, AFullDiskLeavesTheOldTree) {
   const std::string small = city_file(folder_, 100'000, "small.las");
   const std::string large = city_file(folder_, 2'000'000, "large.las");
   ASSERT_EQ(run("build " + small + " -o " + path("disk/tree")).code, 0);
-  for (const char* options : {" --force", " --force --memory 128M"}) {
+  for (const char* options : {" --force", " --force --memory 256M"}) {
     const Outcome full = run("build " + large + " -o " + path("disk/tree") + options);
     EXPECT_EQ(full.code, 1);
     EXPECT_NE(full.err.find("No space left on device"), std::string::npos) << full.err;
