@@ -115,6 +115,22 @@ TEST_F(BuildCommand, StaysWithinItsMemory) {
     EXPECT_TRUE(text_of(path("tree/") + name) == text_of(path("free/") + name)) << name;
 }
 
+// Once a cloud spills, what is in memory is a part of it, of a size that does not depend on how many there are.
+TEST_F(BuildCommand, ThreeTimesThePointsTakeNoMoreMemory) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer's own memory would count as the builder's";
+#endif
+  const auto peak = [&](std::uint64_t points) {
+    const Outcome built =
+        run("build " + city_file(folder_, points) + " -o " + path("tree") + " --force --memory 128M --json");
+    EXPECT_EQ(built.code, 0) << built.err;
+    EXPECT_GT(result_of(built).at("bytes_spilled").get<std::uint64_t>(), 0u);
+    return result_of(built).at("peak_memory_bytes").get<double>();
+  };
+  const double small = peak(2'000'000);
+  EXPECT_LE(peak(6'000'000), 1.2 * small);
+}
+
 TEST_F(BuildCommand, SurvivesKillsAtRandomMoments) {
   const std::string city = city_file(folder_, 600'000);
   ASSERT_EQ(run("build " + city + " -o " + path("tree")).code, 0);

@@ -26,9 +26,9 @@ constexpr std::uint64_t kBatchPoints = 65'536;  // that readers deliver at most
 constexpr std::uint64_t kChunkBytes = 4 * kMega;
 // A node's columns before and after, 8 MiB at most, and brotli's own: a window of 4 MiB and tables.
 constexpr std::uint64_t kEncoderBytes = 24 * kMega;
-// Of a region too large for memory: the share of the memory that one of its parts may take. Small, so that among many
-// parts some come near it, and a cloud three times as large takes no more.
-constexpr std::uint64_t kPartsInMemory = 8;
+// Of a region too large for memory: the share of the memory that one of its parts may take. Small, so that the parts,
+// whatever sizes the cells of a cloud happen to have, matter little beside what is fixed.
+constexpr std::uint64_t kPartsInMemory = 32;
 
 // Reading and building follow each other: a thread needs the larger of the two.
 std::uint64_t thread_bytes(std::size_t points, std::size_t record_bytes) {

@@ -13,8 +13,8 @@ namespace stipple {
 namespace {
 
 constexpr std::size_t kSmallestBuffer = std::size_t{1} << 14;  // of a part while spilling, bytes
-constexpr std::size_t kLargestBuffer = std::size_t{1} << 20;
-constexpr std::size_t kMostParts = 1024;
+constexpr std::size_t kSpillBuffers = std::size_t{1} << 25;    // of all parts, bytes: as many parts as a cloud may have
+constexpr std::size_t kMostParts = kSpillBuffers / kSmallestBuffer;
 
 // Copies all records of a region chunk after chunk into `to`, in any order inside one.
 void gather(const Region& region, const CellMap& map, const BuildSetup& setup, BuildMonitor& monitor,
@@ -153,6 +153,20 @@ void RegionBuilder::write_packed(std::uint64_t place, const potree2::PackedNodes
   monitor_.on_finished({writer_.points_path(), finished});
 }
 
+std::vector<std::unique_ptr<SpilledPart>> RegionBuilder::spill_parts(const Region& region, const CellMap& map) {
+  const std::size_t count = map.parts().size();
+  const std::size_t room = std::min<std::size_t>(kSpillBuffers, setup_.plan.spill_bytes) / count;
+  const std::size_t buffer = std::max<std::size_t>(1, room / setup_.record_bytes) * setup_.record_bytes;
+  records_.release();
+  Buffer<std::byte> buffers(count * buffer);
+  std::vector<std::unique_ptr<SpilledPart>> parts;
+  for (std::size_t p = 0; p < count; ++p)
+    parts.push_back(std::make_unique<SpilledPart>(spill_, std::span(buffers).subspan(p * buffer, buffer)));
+  monitor_.begin(BuildPhase::distributing);
+  spill(region, map, setup_, monitor_, parts);
+  return parts;
+}
+
 void RegionBuilder::build_parts(const Region& region, CellMap& map) {
   std::uint64_t capacity = setup_.plan.part_bytes / setup_.record_bytes;
   while (map.refine(capacity)) map.count(region.read_codes);
@@ -161,15 +175,7 @@ void RegionBuilder::build_parts(const Region& region, CellMap& map) {
   while (map.parts().size() > most && capacity * 2 < region.points) map.divide(capacity *= 2);
   const std::vector<Chunk> cells = map.parts();
   if (cells.size() == 1 && cells.front().count == region.points) return build_heap(region);
-  const std::size_t buffer =
-      std::clamp<std::size_t>(setup_.plan.spill_bytes / cells.size(), kSmallestBuffer, kLargestBuffer);
-  std::vector<std::unique_ptr<SpilledPart>> parts;
-  for (std::size_t p = 0; p < cells.size(); ++p)
-    parts.push_back(std::make_unique<SpilledPart>(
-        spill_, std::max<std::size_t>(1, buffer / setup_.record_bytes) * setup_.record_bytes));
-  monitor_.begin(BuildPhase::distributing);
-  records_.release();
-  spill(region, map, setup_, monitor_, parts);
+  const std::vector<std::unique_ptr<SpilledPart>> parts = spill_parts(region, map);
   const Quantizer quantizer(setup_.frame.grid, setup_.frame.bounds);
   for (std::size_t p = 0; p < cells.size(); ++p) {
     Region part{{cells[p].level, cells[p].code}, cells[p].count, {}, {}};

@@ -7,7 +7,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
+#include <vector>
 
 #include "octree/build/stream/cell_map.h"
 #include "octree/build/stream/chunk_builder.h"
@@ -53,6 +55,7 @@ class RegionBuilder {
   void build_in_memory(const Region& region, CellMap& map);
   void build_chunks(std::span<const Chunk> chunks);
   void build_parts(const Region& region, CellMap& map);
+  std::vector<std::unique_ptr<SpilledPart>> spill_parts(const Region& region, const CellMap& map);
   // All points have one code and are too many for memory: they become a leaf in the order in which they stand.
   void build_heap(const Region& region);
   void encode(potree2::PackedNodes& packed) const;

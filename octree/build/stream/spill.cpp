@@ -25,22 +25,17 @@ void SpillFile::read(const Extent& extent, std::span<std::byte> bytes) const {
 void SpilledPart::append(std::span<const std::byte> records) {
   const std::lock_guard lock(mutex_);
   while (!records.empty()) {
-    if (buffer_.capacity() < capacity_) buffer_.reserve(capacity_);
-    const auto some = records.first(std::min(records.size(), capacity_ - buffer_.size()));
-    buffer_.insert(buffer_.end(), some.begin(), some.end());
+    const auto some = records.first(std::min(records.size(), buffer_.size() - buffered_));
+    std::copy(some.begin(), some.end(), buffer_.begin() + static_cast<std::ptrdiff_t>(buffered_));
+    buffered_ += some.size();
     records = records.subspan(some.size());
-    if (buffer_.size() == capacity_) flush();
+    if (buffered_ == buffer_.size()) flush();
   }
 }
 
 void SpilledPart::flush() {
-  if (!buffer_.empty()) extents_.push_back(file_->append(buffer_));
-  buffer_.clear();
-}
-
-void SpilledPart::close() {
-  flush();
-  buffer_ = {};
+  if (buffered_ > 0) extents_.push_back(file_->append(buffer_.first(buffered_)));
+  buffered_ = 0;
 }
 
 void SpilledPart::read(const RecordConsumer& consume) const {

@@ -39,13 +39,13 @@ class SpillFile {
 // The records of one part.
 class SpilledPart {
  public:
-  // Collects `buffer_bytes` before it writes; whole records.
-  SpilledPart(SpillFile& file, std::size_t buffer_bytes) : file_(&file), capacity_(buffer_bytes) {}
+  // Collects in `buffer`, of whole records, before it writes; refers to it until close().
+  SpilledPart(SpillFile& file, std::span<std::byte> buffer) : file_(&file), buffer_(buffer) {}
 
   // From several threads at once.
   void append(std::span<const std::byte> records);
   // After the last append().
-  void close();
+  void close() { flush(); }
 
   // Gives `consume`, from several threads at once, all records in batches.
   void read(const RecordConsumer& consume) const;
@@ -56,9 +56,9 @@ class SpilledPart {
   void flush();
 
   SpillFile* file_;
-  std::size_t capacity_;
+  std::span<std::byte> buffer_;
+  std::size_t buffered_ = 0;  // bytes
   std::mutex mutex_;
-  Buffer<std::byte> buffer_;
   std::vector<SpillFile::Extent> extents_;
 };
 
