@@ -7,7 +7,7 @@
 namespace stipple {
 
 ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, double point_size)
-    : method_(method),
+    : method_(&method),
       rasterizer_(make_rasterizer(rasterizer, point_size != 1.0)),
       grid_(grid),
       point_size_(point_size) {
@@ -19,12 +19,27 @@ ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasteriz
 
 void ProgressiveRenderer::resize(const glm::ivec2& size) {
   for (auto& target : targets_) target.emplace(size, rasterizer_->depth_storage());
-  if (method_.carry() == Carry::vertices) vertices_.emplace(size);
-  method_.forget();
+  vertices_.reset();
+  if (method_->carry() == Carry::vertices) vertices_.emplace(size);
+  method_->forget();
+}
+
+void ProgressiveRenderer::use(Method& method) {
+  method_ = &method;
+  method_->forget();
+  if (!targets_[0]) return;
+  vertices_.reset();
+  if (method_->carry() == Carry::vertices) {
+    vertices_.emplace(current().size());
+    vertices_->prepare(current());
+  }
+  if (view_.size == glm::ivec2(0)) return;
+  view_drawn_ = false;
+  method_->start_view(view_);
 }
 
 void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
-  switch (method_.carry()) {
+  switch (method_->carry()) {
     case Carry::none:
       break;
     case Carry::grid:
@@ -55,7 +70,7 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   }
   current().clear();
   coverage_.count(current());
-  method_.forget();
+  method_->forget();
   view_ = {};
   glFinish();
 }
@@ -65,20 +80,20 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
     if (!targets_[0] || view.size != current().size()) resize(view.size);
     view_ = view;
     view_drawn_ = false;
-    method_.start_view(view);
+    method_->start_view(view);
   }
   // A view of nothing is finished before it begins, but the last view's picture must go
-  if (view_drawn_ && method_.finished()) return {0, true};
+  if (view_drawn_ && method_->finished()) return {0, true};
 
   uniforms_.set(make_view_block(view, grid_, point_size_));
-  Selection selection = method_.select(budget);
+  Selection selection = method_->select(budget);
   current_ = 1 - current_;
   append_carry(selection.items);
   rasterizer_->draw(current(), selection.items);
-  method_.frame_drawn(current());
+  method_->frame_drawn(current());
   if (vertices_) vertices_->prepare(current());
   view_drawn_ = true;
-  return {selection.points, method_.finished()};
+  return {selection.points, method_->finished()};
 }
 
 FrameData ProgressiveRenderer::read() {
@@ -90,7 +105,7 @@ std::uint64_t ProgressiveRenderer::covered_pixels() {
 }
 
 std::uint64_t ProgressiveRenderer::points_reprojected() {
-  return method_.carry() == Carry::none ? 0 : coverage_.count(previous());
+  return method_->carry() == Carry::none ? 0 : coverage_.count(previous());
 }
 
 }  // namespace stipple

@@ -31,6 +31,10 @@ class ProgressiveRenderer {
   // allocating stay outside of timed parts. The next frame starts from nothing. Waits for the GPU.
   void warm_up(const glm::ivec2& size);
 
+  // Goes on with `method`, which must outlive the renderer, from the picture that is there: the next frame carries it
+  // as the new method does. The methods must draw the same points, with the same ids.
+  void use(Method& method);
+
   // Draws the next frame: the last one reprojected into `view`, and at most `budget` more points. A converged, still
   // view costs nothing. Commands are issued, not awaited.
   FrameReport draw(const View& view, std::uint32_t budget);
@@ -49,7 +53,7 @@ class ProgressiveRenderer {
   FeedbackTarget& current() { return *targets_[current_]; }
   FeedbackTarget& previous() { return *targets_[1 - current_]; }
 
-  Method& method_;
+  Method* method_;
   std::unique_ptr<Rasterizer> rasterizer_;
   Grid grid_;
   double point_size_;
