@@ -10,6 +10,7 @@
 #include "render/method/hierarchical.h"
 #include "render/method/hybrid.h"
 #include "render/method/unstructured.h"
+#include "render/store/cluster_cloud.h"
 #include "render/store/memory_supply.h"
 #include "render/store/tree_supply.h"
 
@@ -27,6 +28,10 @@ void check_room(Mode mode, std::size_t points, std::uint64_t bytes, const Memory
                   name_of(mode), points, bytes, limits.gpu));
 }
 
+ClusterSelector::Options selector_options(const MethodOptions& options, std::uint32_t budget) {
+  return {.largest_budget = budget, .skip_occluded = options.skip_occluded, .by_yield = options.by_yield};
+}
+
 std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions& options) {
   const std::uint64_t sorting = points.size() * kBytesPerPointOfOctree;
   if (sorting > options.limits.main)
@@ -35,12 +40,11 @@ std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions&
                     "--memory, or draw in mode hierarchical.",
                     sorting, points.size(), options.limits.main));
   const auto budget = static_cast<std::uint32_t>(std::clamp<std::size_t>(points.size(), 1, options.largest_budget));
-  const std::uint64_t clusters = ClusterCloud::clusters_for(points.size());
   check_room(Mode::hybrid, points.size(),
-             ClusterCloud::bytes_for(points.size()) + ClusterSelector::bytes_for(clusters, budget), options.limits);
-  return std::make_unique<Hybrid>(
-      points, ClusterSelector::Options{
-                  .largest_budget = budget, .skip_occluded = options.skip_occluded, .by_yield = options.by_yield});
+             cluster_bytes_for(points.size()) + ClusterSelector::bytes_for(clusters_for(points.size()), budget),
+             options.limits);
+  return std::make_unique<Hybrid>(std::make_unique<WholeCloud>(upload_clusters(points)),
+                                  selector_options(options, budget));
 }
 
 }  // namespace
