@@ -23,6 +23,7 @@ struct ChunkBegin {
   std::uint32_t point, stretch;
 };
 constexpr std::uint32_t kOpen = 0;
+constexpr std::uint32_t kOutside = 1;
 constexpr std::size_t kUrgencies = 1024;
 constexpr std::size_t kSummaryHead = sizeof(Totals) + ClusterTable::kMostChunks * sizeof(ChunkBegin);
 
@@ -123,10 +124,10 @@ void ClusterSelector::test(const Tested& tested) {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void ClusterSelector::add(std::span<const Run> runs) {
+void ClusterSelector::add(std::span<const ClusterRun> runs) {
   std::vector<ClusterState> fresh;
   std::vector<std::uint32_t> clusters;
-  for (const Run& run : runs) {
+  for (const ClusterRun& run : runs) {
     fresh.assign(run.count, {0, 0, kOpen, 1.0f});
     states_.write(run.first * sizeof(ClusterState), std::span<const ClusterState>(fresh));
     for (std::uint32_t i = 0; i < run.count; ++i) clusters.push_back(run.first + i);
@@ -134,6 +135,13 @@ void ClusterSelector::add(std::span<const Run> runs) {
   if (!selected_) return;  // the first select() of a view tests all
   open_clusters_.write(open_ * sizeof(std::uint32_t), std::span<const std::uint32_t>(clusters));
   open_ += static_cast<std::uint32_t>(clusters.size());
+}
+
+void ClusterSelector::remove(std::span<const ClusterRun> runs) {
+  for (const ClusterRun& run : runs) {
+    const std::vector<ClusterState> none(run.count, {0, 0, kOutside, 0.0f});
+    states_.write(run.first * sizeof(ClusterState), std::span<const ClusterState>(none));
+  }
 }
 
 std::vector<std::uint32_t> ClusterSelector::open_clusters() const {

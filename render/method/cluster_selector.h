@@ -41,12 +41,6 @@ class ClusterSelector {
     std::uint32_t occluded = 0;  // of them
   };
 
-  // Clusters [first, first + count) of the table.
-  struct Run {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-  };
-
   // The table must outlive the selector, and may grow to its capacity meanwhile.
   ClusterSelector(const ClusterTable& table, const Options& options);
 
@@ -57,9 +51,12 @@ class ClusterSelector {
   // At most `budget` points. The block of `view` is bound.
   Result select(const View& view, std::uint32_t budget);
   // The rows of these clusters are new: none of their points was drawn. They take part in the next select().
-  void add(std::span<const Run> runs);
-  // The clusters that have points left for this view, those of add() included. Waits for the GPU. Empty before the
-  // first select() of a view, when nothing is known.
+  void add(std::span<const ClusterRun> runs);
+  // Those have no points any more, and are not open.
+  void remove(std::span<const ClusterRun> runs);
+  // How many clusters have points left for this view, those of add() included; unknown before its first select().
+  std::optional<std::uint32_t> open() const { return selected_ ? std::optional(open_) : std::nullopt; }
+  // Which they are; empty while unknown. Waits for the GPU.
   std::vector<std::uint32_t> open_clusters() const;
   // Which of these boxes are certainly hidden behind what is drawn in this view, or outside of it. Waits for the GPU.
   std::vector<bool> hidden(std::span<const GridBox> boxes);

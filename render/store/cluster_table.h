@@ -45,4 +45,10 @@ struct ClusterTable {
 };
 static_assert(sizeof(ClusterTable::Row) == 32);
 
+// Consecutive clusters of a table.
+struct ClusterRun {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
 }  // namespace stipple
