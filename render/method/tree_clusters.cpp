@@ -90,10 +90,10 @@ void TreeClusters::load(std::uint32_t budget, ClusterSelector& selector) {
   request(std::min(points_ahead_, std::max(kLeastPoints, kAheadShare * budget)), selector);
   receive(selector.open() == 0u && arrivals_.empty());
   upload(std::max(kLeastPoints, kUploadShare * budget), selector);
-  if (failure_ && selector.open() == 0u && finished()) std::rethrow_exception(std::exchange(failure_, nullptr));
+  if (failure_ && selector.open() == 0u && idle()) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-bool TreeClusters::finished() const {
+bool TreeClusters::idle() const {
   return next_ == wanted_.size() && loading_.empty() && !supply_.searching();
 }
 

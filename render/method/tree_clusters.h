@@ -38,7 +38,7 @@ class TreeClusters final : public ClusterSource {
   const ClusterTable& table() const override { return pool_.table(); }
   void start_view(const View& view) override;
   void load(std::uint32_t budget, ClusterSelector& selector) override;
-  bool finished() const override;
+  bool finished() const override { return idle() && !failure_; }
   void count(SelectionCounts& counts) const override { counts.bytes_read = supply_.bytes_read(); }
 
  private:
@@ -66,6 +66,8 @@ class TreeClusters final : public ClusterSource {
     bool whole = true;       // all of the part
   };
 
+  // Nothing is on its way, nor to be asked for.
+  bool idle() const;
   void want(const std::vector<VisibleCluster>& clusters);
   void want(Key key, const TreeSupply::Part& part, std::uint32_t count, double urgency);
   double urgency_of(const StoredNode& node, double distance) const;
