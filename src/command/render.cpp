@@ -30,7 +30,7 @@ constexpr const char* kReference = "reference";
 struct Options {
   std::vector<std::string> inputs;
   std::string output;
-  std::string mode = "unstructured";
+  std::string mode = "hybrid";
   std::string camera;
   std::string eye;
   std::string target;
@@ -127,8 +127,7 @@ void run(const Options& options) {
   // Check what can be checked before the points are read
   const std::optional<Mode> mode = mode_named(options.mode);
   if (!mode && options.mode != kReference)
-    throw UsageError(
-        fmt::format("--mode {}: expected reference, brute-force, hierarchical, unstructured or hybrid", options.mode));
+    throw UsageError(fmt::format("--mode {}: expected reference, {}", options.mode, mode_names()));
   const glm::ivec2 size = parse_size("--size", options.draw.size);
   const double point_size = parse_positive("--point-size", options.draw.point_size);
   const std::uint32_t background = parse_color("--background", options.draw.background);
@@ -189,10 +188,13 @@ void add_render_command(CLI::App& app) {
   command->add_option("-o,--output", options->output, "PNG file to write; settings and results travel in its text.")
       ->required();
   command
-      ->add_option("--mode", options->mode,
-                   "Method: reference (all points, double precision, CPU), brute-force (all points each frame), "
-                   "hierarchical (Tredinnick and others 2016), unstructured (Schuetz and others 2019) or hybrid (ours: "
-                   "clusters of an octree by what the last frame shows).")
+      ->add_option(
+          "--mode", options->mode,
+          "Method: reference (all points, double precision, CPU), brute-force (all points each frame), "
+          "hierarchical (Tredinnick and others 2016), unstructured (Schuetz and others 2019), hybrid (ours: clusters "
+          "by what the last frame shows), lod (octree nodes by the distance of their points on the screen, as "
+          "many as the budget holds, drawn anew each frame) or subsample (a random subset for a new view, "
+          "more of it while the view stands still).")
       ->capture_default_str();
   add_draw_options(*command, options->draw);
   CLI::Option* camera = command->add_option("--camera", options->camera,

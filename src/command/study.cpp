@@ -30,8 +30,7 @@ std::vector<Mode> modes_of(const std::vector<std::string>& names) {
   std::vector<Mode> modes;
   for (const std::string& name : names) {
     const auto mode = mode_named(name);
-    if (!mode)
-      throw UsageError(fmt::format("--modes {}: expected brute-force, hierarchical, unstructured or hybrid", name));
+    if (!mode) throw UsageError(fmt::format("--modes {}: expected some of {}", name, mode_names()));
     if (std::ranges::find(modes, *mode) == modes.end()) modes.push_back(*mode);
   }
   if (modes.empty()) modes.assign(all_modes().begin(), all_modes().end());
@@ -101,9 +100,7 @@ void add_study_command(CLI::App& app) {
       ->required();
   command->add_option("-o,--output", options->output, "Folder to write to; it is made where it is missing.")
       ->required();
-  command
-      ->add_option("--modes", options->modes,
-                   "Methods, separated by commas: brute-force, hierarchical, unstructured, hybrid. Default: all.")
+  command->add_option("--modes", options->modes, "Methods, separated by commas: " + mode_names() + ". Default: all.")
       ->delimiter(',');
   command->add_option("--views", options->views,
                       R"(JSON file with cameras: {"views": [{"name", "eye", "target", "up", "fov_deg"}, ...]}. )"
