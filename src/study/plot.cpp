@@ -74,13 +74,13 @@ double ms_of(const FrameState& state) {
   return state.milliseconds;
 }
 
-// Rows of the figure: consecutive curves of one dataset and view.
+// Rows of the figure: consecutive curves of one dataset, view and regime.
 std::vector<std::span<const Curve>> rows_of(std::span<const Curve> curves) {
   std::vector<std::span<const Curve>> rows;
   for (std::size_t first = 0; first < curves.size();) {
     std::size_t end = first;
     while (end < curves.size() && curves[end].dataset == curves[first].dataset &&
-           curves[end].view == curves[first].view)
+           curves[end].view == curves[first].view && curves[end].regime == curves[first].regime)
       ++end;
     rows.push_back(curves.subspan(first, end - first));
     first = end;
@@ -191,9 +191,11 @@ std::string plot_svg(std::span<const Curve> curves) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const double top = kLegendHeight + kMarginTop + static_cast<double>(r) * (kPanelHeight + kGapY);
     const Axis psnr = psnr_axis(rows[r]);
-    const std::string title = rows[r].front().dataset + ", " + rows[r].front().view;
+    const Curve& first = rows[r].front();
+    const std::string title =
+        first.dataset + ", " + first.view + (first.regime == "cold" ? "" : " (" + first.regime + ")");
     const std::array<std::pair<Work, const char*>, 2> clocks{{{points_of, "points drawn"}, {ms_of, "milliseconds"}}};
-    for (std::size_t c = 0; c < clocks.size(); ++c) {
+    for (std::size_t c = 0; c < (first.timed ? clocks.size() : 1); ++c) {
       Panel panel(svg, kMarginLeft + static_cast<double>(c) * (kPanelWidth + kGapX), top,
                   work_axis(rows[r], clocks[c].first), psnr);
       panel.draw_frame(clocks[c].second, c == 0 ? title : "");
