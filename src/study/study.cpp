@@ -9,6 +9,7 @@
 #include "octree/core/output_file.h"
 #include "render/store/dataset.h"
 #include "src/camera/camera_file.h"
+#include "src/report/report.h"
 #include "src/run/provenance.h"
 #include "src/study/input_study.h"
 #include "src/study/ledger.h"
@@ -162,6 +163,8 @@ StudyResult run_study(const StudySettings& settings, const HeadlessContext& cont
   write_file(folder / "curves.csv", curves_csv(result.curves));
   write_file(folder / "study.json", text_of(result.document, 2) + "\n");
   write_file(folder / "plot.svg", plot_svg(result.curves));
+  show("report");
+  write_file(folder / "index.html", report_html(result.document, result.curves, settings.folder));
   return result;
 }
 
