@@ -1,10 +1,15 @@
 // The charts; Chart.js draws them.
 'use strict';
 
-// Infinite decibels stand on a line of their own above the finite ones.
-function ceiling(values) {
+// Tens around the finite decibels; infinite ones stand on the upper edge.
+function decibelRange(values) {
   const finite = values.filter(Number.isFinite);
-  return finite.length ? 5 * Math.ceil((Math.max(...finite) + 2) / 5) : 60;
+  if (finite.length === 0) return { min: 0, max: 60 };
+  return { min: 10 * Math.floor(Math.min(...finite) / 10), max: 10 * Math.ceil((Math.max(...finite) + 2) / 10) };
+}
+
+function decibelAxis(title, { min, max }, infinite) {
+  return axis(title, { min, max, ticks: { stepSize: 10, callback: (v) => (infinite && v === max ? '∞' : v) } });
 }
 
 function axis(title, more = {}) {
@@ -37,12 +42,11 @@ const workOf = (columns, clock, i) => (clock === 'points' ? columns.points_drawn
 function lineChart(place, title, curves, { x, xTitle, measure, value, log = false }) {
   const values = curves.map((curve) => curve.columns.frame.map((_, i) => number(value(curve.columns, i))));
   const decibels = measure.unit === 'dB';
-  const top = decibels ? ceiling(values.flat().filter((v) => v !== null)) : undefined;
-  const infinite = decibels && values.flat().includes(Infinity);
+  const range = decibels ? decibelRange(values.flat().filter((v) => v !== null)) : {};
   const datasets = curves.map((curve, c) => ({
     label: curve.mode,
     data: values[c]
-      .map((y, i) => ({ x: x(curve.columns, i), y: y === Infinity ? top : y, frame: i, real: y }))
+      .map((y, i) => ({ x: x(curve.columns, i), y: y === Infinity ? range.max : y, frame: i, real: y }))
       .filter((point) => point.y !== null && (!log || point.x > 0)),
     columns: curve.columns,
     showLine: true,
@@ -55,14 +59,15 @@ function lineChart(place, title, curves, { x, xTitle, measure, value, log = fals
     hidden: !visible(curve.mode),
   }));
   const yTitle = measure.unit ? `${measure.name} [${measure.unit}]` : measure.name;
-  const ticks = decibels ? { callback: (v) => (infinite && v === top ? '∞' : v) } : {};
   addChart(place, title, {
     type: 'scatter',
     data: { datasets },
     options: {
       scales: {
         x: axis(xTitle, log ? { type: 'logarithmic' } : { beginAtZero: true }),
-        y: axis(yTitle, { ...(decibels ? { max: top } : { beginAtZero: measure.key !== 'ssim' }), ticks }),
+        y: decibels
+          ? decibelAxis(yTitle, range, values.flat().includes(Infinity))
+          : axis(yTitle, { beginAtZero: measure.key !== 'ssim' }),
       },
       interaction: { mode: 'nearest', intersect: false },
       plugins: { tooltip: { callbacks: { label: (item) => tooltip(item, measure) } } },
@@ -106,17 +111,43 @@ function drawMoving() {
   }
 }
 
+// Writes the method beside its mark, no name over another.
+const names = {
+  id: 'names',
+  afterDatasetsDraw(chart) {
+    const { ctx, data, chartArea } = chart;
+    const labels = data.datasets
+      .map((dataset, i) => ({ dataset, mark: chart.getDatasetMeta(i).data[0], shown: chart.isDatasetVisible(i) }))
+      .filter(({ dataset, mark: at, shown }) => dataset.named && at && shown)
+      .sort((a, b) => a.mark.y - b.mark.y);
+    ctx.save();
+    ctx.font = `600 12px ${Chart.defaults.font.family}`;
+    ctx.textBaseline = 'middle';
+    let least = chartArea.top + 8;
+    labels.forEach(({ dataset, mark: at }, i) => {
+      // Those below need their lines, too
+      const y = Math.min(Math.max(at.y, least), chartArea.bottom - 8 - 15 * (labels.length - 1 - i));
+      least = y + 15;
+      const left = at.x > (chartArea.left + chartArea.right) / 2;
+      ctx.textAlign = left ? 'right' : 'left';
+      ctx.fillStyle = dataset.borderColor;
+      ctx.fillText(dataset.label, at.x + (left ? -13 : 13), y);
+    });
+    ctx.restore();
+  },
+};
+
 // T16, figure 1, right: frame rate against quality.
 function drawRates() {
   const place = $('#rates .charts');
   if (!timed) return;
-  const moving = firstRuns().some((curve) => curve.regime === 'path');
-  const curves = firstRuns().filter((curve) => (curve.regime === 'path') === moving);
-  for (const [title, runs] of grouped(curves, routeName)) {
+  for (const [title, runs] of grouped(firstRuns(), routeName)) {
     const summaries = ofDataset(report.study.summary);
     const of = (curve) => summaries.find((s) => s.mode === curve.mode && s.view === curve.view && s.regime === curve.regime);
-    const top = ceiling(runs.flatMap((curve) => [...curve.columns.psnr_db.map(number), number(of(curve).mean.psnr_db)]));
-    const clamp = (db) => Math.min(number(db), top);
+    const decibels = runs.flatMap((curve) => [...curve.columns.psnr_db.map(number), number(of(curve).mean.psnr_db)]);
+    const range = decibelRange(decibels);
+    const clamp = (db) => Math.min(number(db), range.max);
+    const rates = runs.flatMap((curve) => curve.columns.frame_ms.map((ms) => 1e3 / ms)).filter(Number.isFinite);
     const style = (curve) => ({
       label: curve.mode,
       borderColor: color(curve.mode),
@@ -125,7 +156,8 @@ function drawRates() {
     });
     const means = runs.map((curve) => ({
       ...style(curve),
-      data: [{ x: 1e3 / of(curve).frame_ms.p50, y: clamp(of(curve).mean.psnr_db) }],
+      named: true,
+      data: [{ x: 1e3 / of(curve).frame_ms.p50, y: clamp(of(curve).mean.psnr_db) }].filter(({ x }) => Number.isFinite(x)),
       backgroundColor: color(curve.mode),
       pointRadius: 8,
       pointHoverRadius: 9,
@@ -141,11 +173,12 @@ function drawRates() {
     }));
     addChart(place, title, {
       type: 'scatter',
+      plugins: [names],
       data: { datasets: [...means, ...frames] },
       options: {
         scales: {
-          x: axis('frames per second', { type: 'logarithmic' }),
-          y: axis('PSNR [dB]', { max: top, ticks: { callback: (v) => (v === top ? '∞' : v) } }),
+          x: axis('frames per second', { type: 'logarithmic', min: 0.8 * Math.min(...rates), max: 1.25 * Math.max(...rates) }),
+          y: decibelAxis('PSNR [dB]', range, decibels.includes(Infinity)),
         },
         plugins: {
           tooltip: {

@@ -117,6 +117,13 @@ function openInComparison(item, frame) {
   $('#compare').scrollIntoView({ behavior: 'smooth' });
 }
 
+// Along a path the work so far says little.
+function captions(item, frame) {
+  if (item.regime === 'path') return [`frame ${frame.frame}`, format.db(frame.psnr_db)];
+  const time = frame.ms === null ? '' : ` · ${format.ms(frame.ms)}`;
+  return [`${format.points(frame.points)}${time}`, `frame ${frame.frame} · ${format.db(frame.psnr_db)}`];
+}
+
 function drawFilms() {
   const place = $('#films .reels');
   place.replaceChildren();
@@ -128,8 +135,7 @@ function drawFilms() {
       const strip = make('div', { class: 'strip' });
       for (const frame of frames) {
         const large = item.pictures.some((p) => p.mode === mode && p.frame === frame.frame);
-        const time = frame.ms === null ? '' : ` · ${format.ms(frame.ms)}`;
-        const lines = [make('span', {}, `${format.points(frame.points)}${time}`), make('span', {}, `frame ${frame.frame} · ${format.db(frame.psnr_db)}`)];
+        const lines = captions(item, frame).map((text) => make('span', {}, text));
         const image = make('img', { src: pictureOf(frame.id), alt: `${mode}, frame ${frame.frame}`, loading: 'lazy' });
         const node = make(large ? 'button' : 'figure', { class: 'frame', ...(large ? { type: 'button' } : {}) }, image, ...lines);
         if (large) node.addEventListener('click', () => openInComparison(item, frame));
