@@ -181,7 +181,8 @@ void run(const Options& options) {
     print_json(result.document);
   } else {
     print_tables(result.document["summary"]);
-    fmt::print("\n{0}/plot.svg  {0}/curves.csv  {0}/study.json  {0}/frames  {0}/reference\n", options.output);
+    fmt::print("\n{0}/index.html  {0}/plot.svg  {0}/curves.csv  {0}/study.json  {0}/frames  {0}/reference\n",
+               options.output);
   }
   if (result.interrupted)
     throw Error(fmt::format("interrupted; what was finished is in {}, and the same command with --resume goes on",

@@ -55,7 +55,7 @@ struct StudyResult {
 
 // For each input, view and regime (DESIGN names them; see regime.h): the reference picture, the brute-force picture,
 // and for each mode its curve. Loading, upload, shader compiling and what comes before a jump or a stop are outside the
-// clock, metrics too. Writes into the folder: curves.csv, study.json, plot.svg, reference/, frames/, and
+// clock, metrics too. Writes into the folder: index.html, curves.csv, study.json, plot.svg, reference/, frames/, and
 // finished.jsonl, by which `resume` goes on. An input or a method that fails is reported, and the rest go on.
 // `progress` gets a line for every step. Once `interrupt` is true the study ends, and what it has finished is written.
 // Throws Error when the folder cannot be written, UsageError when the only input cannot be studied with these settings.

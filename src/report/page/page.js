@@ -102,6 +102,15 @@ function setUpControls() {
   });
 }
 
+// index.html#show=curves,compare: those sections alone, for slides and figures.
+function showChosenSections() {
+  const chosen = location.hash.match(/^#show=([\w,-]+)$/)?.[1].split(',');
+  if (!chosen) return;
+  for (const section of document.querySelectorAll('main > section')) section.classList.toggle('left-out', !chosen.includes(section.id));
+  for (const part of document.querySelectorAll('header.page, nav.controls, footer'))
+    part.classList.toggle('left-out', !chosen.includes('head'));
+}
+
 applyTheme('auto');
 drawHead();
 drawMethodToggles();
@@ -111,3 +120,4 @@ setUpCompare();
 drawSettings();
 redraw();
 drawScenes();
+showChosenSections();
