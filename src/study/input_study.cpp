@@ -105,11 +105,11 @@ bool InputStudy::finished(const Route& route) const {
     for (const Mode mode : settings_.modes)
       for (int repeat = 0; repeat < settings_.repeats; ++repeat)
         if (!ledger_.find(key(route, regime, mode, repeat))) return false;
-  return ledger_.find(folder("route", route.name)) != nullptr;
+  return ledger_.find(folder(route.is_path() ? "path" : "view", route.name)) != nullptr;
 }
 
 void InputStudy::study(const Route& route) {
-  const std::string description_key = folder("route", route.name);
+  const std::string description_key = folder(route.is_path() ? "path" : "view", route.name);
   Json description;
   std::vector<Truth> truths;
   if (finished(route)) {
@@ -125,11 +125,14 @@ void InputStudy::study(const Route& route) {
 
 // The reference pictures go to files here.
 std::vector<Truth> InputStudy::truths_of(const Route& route, Json& description) const {
-  progress_.step(fmt::format("{}, {}: reference{}", name_, route.name, route.views.size() > 1 ? "s" : ""));
+  progress_.step(fmt::format("{}, {}: reference{}", name_, route.name, route.is_path() ? "s" : ""));
+  // DIR/NAME.png, of a path DIR/NAME/00001.png and on
   const fs::path pictures = fs::path(settings_.folder) / folder("reference", route.name);
-  fs::remove_all(pictures);
   fs::create_directories(pictures.parent_path());
-  if (route.views.size() > 1) fs::create_directories(pictures);
+  if (route.is_path()) {
+    fs::remove_all(pictures);
+    fs::create_directories(pictures);
+  }
   TruthMaker maker(dataset_, {.raster = settings_.raster,
                               .point_size = settings_.point_size,
                               .background = settings_.background,
@@ -138,8 +141,8 @@ std::vector<Truth> InputStudy::truths_of(const Route& route, Json& description) 
   for (const View& view : route.views) {
     progress_.check();
     truths.push_back(maker.make(view));
-    const fs::path file = route.views.size() > 1 ? pictures / fmt::format("{:05}.png", truths.size())
-                                                 : fs::path(pictures.string() + ".png");
+    const fs::path file =
+        route.is_path() ? pictures / fmt::format("{:05}.png", truths.size()) : fs::path(pictures.string() + ".png");
     const Json provenance{{"mode", "reference"},
                           {"dataset", dataset_provenance(dataset_)},
                           {"view", view_provenance(view)},

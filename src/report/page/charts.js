@@ -1,15 +1,17 @@
 // The charts; Chart.js draws them.
 'use strict';
 
-// Tens around the finite decibels; infinite ones stand on the upper edge.
+// Round numbers around the finite decibels; infinite ones stand on the upper edge.
 function decibelRange(values) {
   const finite = values.filter(Number.isFinite);
-  if (finite.length === 0) return { min: 0, max: 60 };
-  return { min: 10 * Math.floor(Math.min(...finite) / 10), max: 10 * Math.ceil((Math.max(...finite) + 2) / 10) };
+  if (finite.length === 0) return { min: 0, max: 60, step: 10 };
+  const [least, most] = [Math.min(...finite), Math.max(...finite) + 1];
+  const step = most - least > 25 ? 10 : 5;
+  return { min: step * Math.floor(least / step), max: step * Math.ceil(most / step), step };
 }
 
-function decibelAxis(title, { min, max }, infinite) {
-  return axis(title, { min, max, ticks: { stepSize: 10, callback: (v) => (infinite && v === max ? '∞' : v) } });
+function decibelAxis(title, { min, max, step }, infinite) {
+  return axis(title, { min, max, ticks: { stepSize: step, callback: (v) => (infinite && v === max ? '∞' : v) } });
 }
 
 function axis(title, more = {}) {

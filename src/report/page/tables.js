@@ -16,14 +16,13 @@ function leastOf(group, value) {
 function reachedCell(row, key, group) {
   const reached = row.reached[key];
   if (!reached) return make('td', { 'data-key': key }, '–');
-  const byTime = state.clock === 'time' && timed;
-  const work = (r) => r.reached[key] && (byTime ? r.reached[key].ms_median : r.reached[key].points);
-  const best = work(row) === leastOf(group, work);
-  const cell = make('td', { 'data-key': key, class: best ? 'best' : '' }, format.points(reached.points));
+  const least = (what) => reached[what] === leastOf(group, (r) => r.reached[key]?.[what]);
+  const cell = make('td', { 'data-key': key });
+  cell.append(make('span', { class: least('points') ? 'best' : '' }, format.points(reached.points)));
   cell.dataset.points = reached.points;
   if (timed) {
     cell.dataset.ms = reached.ms_median;
-    cell.append(make('span', { class: 'time' }, format.ms(reached.ms_median)));
+    cell.append(make('span', { class: least('ms_median') ? 'time best' : 'time' }, format.ms(reached.ms_median)));
     if (row.repeats > 1)
       cell.append(make('span', { class: 'time' }, `${format.ms(reached.ms_min)} – ${format.ms(reached.ms_max)}`));
   }
