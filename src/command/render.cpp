@@ -32,6 +32,8 @@ struct Options {
   std::string output;
   std::string mode = "hybrid";
   std::string camera;
+  std::string view;
+  std::optional<double> time;
   std::string eye;
   std::string target;
   std::string up = "0,0,1";
@@ -50,13 +52,25 @@ struct Picture {
   Json stats;
 };
 
+// The one called --view, or the only one there is.
+template <class Named>
+const Named& chosen(const std::vector<Named>& all, const Options& options, const char* kind) {
+  if (options.view.empty()) {
+    if (all.size() > 1)
+      throw UsageError(fmt::format("--camera {}: holds {} {}s; a picture is taken from one, which --view names",
+                                   options.camera, all.size(), kind));
+    return all.front();
+  }
+  const auto found = std::ranges::find(all, options.view, &Named::name);
+  if (found == all.end())
+    throw UsageError(fmt::format("--view {}: {} has no {} of that name", options.view, options.camera, kind));
+  return *found;
+}
+
 Camera camera_of(const Options& options, const Dataset& dataset, double aspect) {
   if (!options.camera.empty()) {
-    const std::vector<NamedCamera> cameras = read_cameras(options.camera);
-    if (cameras.size() > 1)
-      throw UsageError(
-          fmt::format("--camera {}: holds {} views; a picture is taken from one", options.camera, cameras.size()));
-    return cameras.front().camera;
+    if (options.time) return camera_at(chosen(read_paths(options.camera), options, "path"), *options.time);
+    return chosen(read_cameras(options.camera), options, "view").camera;
   }
   if (options.eye.empty()) return propose_cameras(dataset.overview(), aspect).front().camera;
   return {.eye = parse_vector("--eye", options.eye),
@@ -197,8 +211,14 @@ void add_render_command(CLI::App& app) {
           "more of it while the view stands still).")
       ->capture_default_str();
   add_draw_options(*command, options->draw);
-  CLI::Option* camera = command->add_option("--camera", options->camera,
-                                            R"(JSON file with "eye" and "target", and optionally "up" and "fov_deg".)");
+  CLI::Option* camera =
+      command->add_option("--camera", options->camera,
+                          R"(JSON file with "eye" and "target", and optionally "up" and "fov_deg"; or with such )"
+                          R"(objects as "views", or as "cameras" with a "time" in "paths".)");
+  command->add_option("--view", options->view, "Which view or path of that file, by its name, where it has several.")
+      ->needs(camera);
+  command->add_option("--time", options->time, "Seconds on the time of a path in that file: where it is then.")
+      ->needs(camera);
   CLI::Option* eye = command->add_option("--eye", options->eye, "Place of the eye as x,y,z in world coordinates.");
   CLI::Option* target = command->add_option("--target", options->target, "Place the eye looks at, as x,y,z.");
   eye->needs(target)->excludes(camera);
