@@ -8,6 +8,7 @@
 #include "octree/build/stream/tree_builder.h"
 #include "tests/fuzz/folder_bytes.h"
 #include "tests/octree/node_files.h"
+#include "tests/read/shared_catalog.h"
 
 namespace stipple::fuzz {
 namespace {
@@ -18,8 +19,6 @@ using test::LasFile;
 using test::Potree1Files;
 using test::ScratchFolder;
 using test::TreeFiles;
-
-const fs::path kData = STIPPLE_SHARED_DATA;
 
 // Of larger files the head alone: small inputs are what a fuzzer gets far with.
 constexpr std::size_t kLargest = 20'000;
@@ -61,43 +60,26 @@ class Seeds {
   int count_ = 0;
 };
 
-// The fields of a line of the catalogue.
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find('\t', at), line.size());
-    fields.push_back(line.substr(at, end - at));
-    at = end + 1;
-  }
-  return fields;
-}
-
-// "" for formats whose seeds are made below.
 std::string target_of(const std::string& format) {
   if (format.starts_with("COPC")) return "copc";
   if (format.starts_with("LAZ"))
     return format.find("PDRF ") != format.npos && std::stoi(format.substr(format.find("PDRF ") + 5)) >= 6
                ? "laz_layered"
                : "laz";
-  for (const auto& [start, target] : {std::pair{"LAS", "las"}, {"PLY", "ply"}, {"PCD", "pcd"}, {"EPT", "ept"}})
-    if (format.starts_with(start)) return target;
-  return "";
+  return format.starts_with("PLY")   ? "ply"
+         : format.starts_with("PCD") ? "pcd"
+         : format.starts_with("EPT") ? "ept"
+                                     : "las";
 }
 
 void add_catalogue(Seeds& seeds) {
-  std::ifstream catalogue(kData / "catalog.tsv");
-  std::string line;
-  std::getline(catalogue, line);
-  while (std::getline(catalogue, line)) {
-    const std::vector<std::string> fields = fields_of(line);
-    const std::string target = target_of(fields.at(2));
-    const fs::path path = kData / fields[0];
-    if (target.empty()) continue;
-    if (fs::is_directory(path)) {
-      if (std::stoull(fields.at(6)) < 2 * kLargest) seeds.add_folder(target, path);
+  for (const test::CatalogEntry& entry : test::catalog_entries({"LAS", "LAZ", "COPC", "PLY", "PCD", "EPT"})) {
+    const std::string target = target_of(entry.format);
+    if (fs::is_directory(entry.full_path())) {
+      if (entry.bytes < 2 * kLargest) seeds.add_folder(target, entry.full_path());
       continue;
     }
-    std::string content = content_of(path);
+    std::string content = content_of(fs::path(entry.full_path()));
     if (content.size() > 2 * kLargest || (target != "copc" && content.size() > kLargest)) content.resize(kHead);
     seeds.add(target, content);
   }
@@ -164,7 +146,7 @@ std::vector<LasNode> las_nodes() {
                                                     {"laz-rs+laz-rs/data/point-color.laz", 1065},
                                                     {"gadomski+las-rs/data/autzen.laz", 106}};
   for (const auto& [name, points] : compressed)
-    if (fs::exists(kData / name)) nodes.push_back({content_of(kData / name), points, true});
+    if (fs::exists(test::kSharedData / name)) nodes.push_back({content_of(test::kSharedData / name), points, true});
   return nodes;
 }
 
