@@ -32,6 +32,10 @@ std::string reading_order_of(Mode mode) {
       return "shuffled: the whole cloud";
     case Mode::hybrid:
       return "ordered: clusters by the pixels they win, shuffled in each";
+    case Mode::lod:
+      return "ordered: nodes by the distance of their points on the screen, all again every frame";
+    case Mode::subsample:
+      return "shuffled: the whole cloud, from its beginning for each view";
   }
   return "";
 }

@@ -159,7 +159,8 @@ TEST_F(StudyRegimes, EachErrorHasItsCause) {
       EXPECT_EQ(row.at("reuse"), "");
       EXPECT_EQ(row.at("R"), "0");
       EXPECT_EQ(row.at("identical"), "1");
-    } else if (row.at("regime") == "path" && row.at("frame") != "1") {
+    } else if (row.at("regime") == "path" && row.at("frame") != "1" && row.at("mode") != "lod" &&
+               row.at("mode") != "subsample") {
       EXPECT_GT(std::stod(row.at("reuse")), 0.2) << curve;
       EXPECT_GT(std::stoi(row.at("R")), 0) << curve;
       EXPECT_FALSE(row.at("flicker").empty());
@@ -168,7 +169,7 @@ TEST_F(StudyRegimes, EachErrorHasItsCause) {
     ++frames[curve];
     carry[curve] += std::stod(row.at("mse_carry"));
   }
-  EXPECT_EQ(frames.size(), 16u);
+  EXPECT_EQ(frames.size(), 4u * 6u);
   for (const char* mode : {"hierarchical", "unstructured", "hybrid"}) {
     EXPECT_EQ(frames[std::string("path ") + mode], 6);
     EXPECT_GT(carry[std::string("path ") + mode], 0.0) << mode;
@@ -212,7 +213,7 @@ TEST_F(StudyRegimes, ResumesWhereItWasInterrupted) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(text_of(path("out/curves.csv")), curves);
   EXPECT_FALSE(contains(outcome.err, "cold, corner: brute-force"));
-  EXPECT_TRUE(contains(outcome.err, "[24/24]"));
+  EXPECT_TRUE(contains(outcome.err, "[36/36]"));
   const Outcome other = regimes("out", "--resume --seed 5");
   EXPECT_EQ(other.code, 1);
   EXPECT_TRUE(contains(other.err, "seed is 5, was 0"));

@@ -125,7 +125,7 @@ TEST_F(Report, ShowsTheNumbersOfTheStudyAndCanBeUsed) {
 
   for (const Json& chart : seen.at("scatter"))
     if (chart.at(0) == "approach, along the path") {
-      EXPECT_EQ(chart.at(1).size(), 4u);
+      EXPECT_EQ(chart.at(1).size(), 6u);
       for (const Json& mark : chart.at(1)) {
         const double ms = summary_of(document, mark.at(0), "path").at("frame_ms").at("p50");
         EXPECT_NEAR(mark.at(1).at("x").get<double>(), 1e3 / ms, 1e-9 / ms);

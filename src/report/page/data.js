@@ -40,14 +40,11 @@ const routeName = (item) => `${item.view}, ${kRegimes[item.regime]}`;
 const timed = report.study.settings.clock === 'wall';
 
 // Every method has its colour and its mark, in all charts.
-const kMarks = { 'brute-force': 'rectRot', hierarchical: 'circle', unstructured: 'triangle', hybrid: 'rect' };
-const kOtherMarks = ['star', 'crossRot', 'rectRounded'];
-const ownColor = ['brute-force', 'hierarchical', 'unstructured', 'hybrid'];
-const others = methods.filter((mode) => !ownColor.includes(mode));
-const colorName = (mode) => (ownColor.includes(mode) ? `--${mode}` : `--other-${others.indexOf(mode) % 3}`);
+const kMarks = { 'brute-force': 'rectRot', hierarchical: 'circle', unstructured: 'triangle', hybrid: 'rect', lod: 'star', subsample: 'crossRot' };
+const colorName = (mode) => (mode in kMarks ? `--${mode}` : '--other');
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const color = (mode) => css(colorName(mode));
-const mark = (mode) => kMarks[mode] ?? kOtherMarks[others.indexOf(mode) % 3];
+const mark = (mode) => kMarks[mode] ?? 'rectRounded';
 
 const format = {
   points: (n) => (n >= 1e6 ? `${(n / 1e6).toFixed(2)} M` : n >= 1e4 ? `${(n / 1e3).toFixed(0)} k` : n.toLocaleString('en-US')),
