@@ -1,5 +1,6 @@
 // What the passes that select clusters share (render/method/cluster_selector.cpp drives them):
-//   select_test    which clusters can be seen: frustum, depth already drawn
+//   select_outline once a view: which clusters are in sight, and where on the screen
+//   select_test    which of them are wholly behind the depth already drawn
 //   select_score   what each would draw next, and how urgently
 //   select_cut     how urgent is urgent enough for the budget
 //   select_scan    prefix sums over the clusters that are, in two steps
@@ -22,6 +23,14 @@ struct ClusterState {
   uint drawn;
   uint status;
   float seen;  // share of its latest points that won their pixel: the yield
+};
+
+// The tiles of the depth pyramid that a cluster may touch, pixels on level 0; x below y in 16 bits each.
+struct Silhouette {
+  uint low;
+  uint high;
+  float depth;  // of its nearest place, rounded towards the eye; reversed, so that nearer is larger
+  uint level;
 };
 
 // What there is to win, as of the last test.
@@ -48,12 +57,16 @@ const uint kWishBits = 22;
 const uint kWishMask = (1u << kWishBits) - 1u;
 const uint kUrgencies = 1024;
 
+// Clusters, since the view began.
+struct Sight {
+  uint visible;   // in the frustum
+  uint occluded;  // of those, wholly behind what is drawn
+};
+
 struct Totals {
   uint points;     // taken in this frame
   uint stretches;
   uint open;       // clusters with points left after it
-  uint visible;    // clusters in the frustum
-  uint occluded;   // of those, wholly behind what is drawn
   int cut;         // clusters above this urgency are taken whole, those of it as far as `allowance` goes
   uint allowance;
   uint factor;     // of what each asks for, where that is less than the budget

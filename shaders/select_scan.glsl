@@ -8,9 +8,10 @@ layout(local_size_x = 64) in;
 
 void main() {
   uint block = invocation_index();
+  if (block >= blocks) return;
   uvec4 sum = uvec4(0u);
-  for (uint k = 0u; k < BLOCK; ++k) sum += wish_of(block * BLOCK + k);
-  if (block * BLOCK < clusters) block_sums[block] = sum;
+  for (uint left = wishing[block]; left != 0u; left &= left - 1u) sum += wish_of(block * BLOCK + uint(findLSB(left)));
+  block_sums[block] = sum;
 }
 
 #else

@@ -6,12 +6,15 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) readonly buffer Boxes { ClusterBox boxes[]; };
 layout(std430, binding = 1) readonly buffer States { ClusterState states[]; };
+layout(std430, binding = 3) buffer Wishing { uint wishing[]; };  // a bit for each of a block of BLOCK clusters
 layout(std430, binding = 4) writeonly buffer Wishes { uint wishes[]; };
 layout(std430, binding = 5) buffer Summary { Totals totals; uvec2 chunk_begins[MOST_CHUNKS]; uint urgencies[]; };
 layout(std430, binding = 7) readonly buffer Prospects { Prospect prospects[]; };
-layout(location = 0) uniform uint clusters;
+layout(std430, binding = 2) readonly buffer OpenClusters { uint open_clusters[]; };
+layout(location = 0) uniform uint count;  // clusters to do
 layout(location = 1) uniform bool by_yield;
 layout(location = 2) uniform float near;  // of the view
+layout(location = 3) uniform bool all;    // not of the open clusters, but of all
 
 // New clusters first, near ones before far ones, sixteen classes to a doubling of the distance; then by yield, fifty
 // classes to a halving.
@@ -28,16 +31,15 @@ uint urgency_of(ClusterState state, Prospect prospect) {
 void main() {
   const float kLeast = 8.0;  // points: shorter stretches cost more to select than to draw
   uint i = invocation_index();
-  if (i >= clusters) return;
+  if (i >= count) return;
+  if (!all) i = open_clusters[i];
   ClusterState state = states[i];
   uint rest = boxes[i].count - state.drawn;
-  uint entry = 0u;
-  if (state.status == kOpen && rest > 0u) {
-    Prospect prospect = prospects[i];
-    uint wish = min(uint(clamp(ceil(0.5 * prospect.pixels), kLeast, 65536.0)), rest);
-    uint urgency = urgency_of(state, prospect);
-    entry = urgency << kWishBits | wish;
-    atomicAdd(urgencies[urgency], wish);
-  }
-  wishes[i] = entry;
+  if (state.status != kOpen || rest == 0u) return;
+  Prospect prospect = prospects[i];
+  uint wish = min(uint(clamp(ceil(0.5 * prospect.pixels), kLeast, 65536.0)), rest);
+  uint urgency = urgency_of(state, prospect);
+  atomicOr(wishing[i / BLOCK], 1u << i % BLOCK);
+  wishes[i] = urgency << kWishBits | wish;
+  atomicAdd(urgencies[urgency], wish);
 }

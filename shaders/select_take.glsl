@@ -11,35 +11,34 @@ layout(std430, binding = 7) writeonly buffer Stretches { Stretch stretches[]; };
 
 void main() {
   uint block = invocation_index();
+  if (block >= blocks) return;
   uint first = block * BLOCK;
-  if (first >= clusters) return;
   uvec4 before = block_sums[block];
-  uvec2 counts = uvec2(0u);  // visible, occluded
-  uint open = 0u;            // a bit for each of the block
-  for (uint i = first; i < min(first + BLOCK, clusters); ++i) {
-    uvec4 wish = wish_of(i);
-    uvec4 end = before + wish;
-    uint begin = before.x + min(before.z, totals.allowance);
-    uint slot = before.y + before.w;
-    uint count = end.x + min(end.z, totals.allowance) - begin;
-    before = end;
+  uint begin = before.x + min(before.z, totals.allowance);
+  uint place = boxes[first].place;
+  if ((place & kPlaceMask) == 0u) chunk_begins[place >> kPlaceBits] = uvec2(begin, before.y + before.w);
 
-    ClusterBox box = boxes[i];
-    ClusterState state = states[i];
-    if ((box.place & kPlaceMask) == 0u) chunk_begins[box.place >> kPlaceBits] = uvec2(begin, slot);
+  uint open = 0u;  // a bit for each of the block
+  for (uint left = wishing[block]; left != 0u; left &= left - 1u) {
+    uint i = first + uint(findLSB(left));
+    uvec4 wish = wish_of(i);
+    uint slot = before.y + before.w;
+    before += wish;
+    uint end = before.x + min(before.z, totals.allowance);
+    uint drawn = states[i].drawn;
     if (wish.y + wish.w > 0u) {
-      stretches[slot] = Stretch(i, begin, state.drawn, count);
-      states[i].drawn = state.drawn + count;
+      stretches[slot] = Stretch(i, begin, drawn, end - begin);
+      drawn += end - begin;
+      states[i].drawn = drawn;
     }
-    counts += uvec2(state.status != kOutside, state.status == kOccluded);
-    if (state.status == kOpen && state.drawn + count < box.count) open |= 1u << i - first;
-    if (i == clusters - 1u) {
-      totals.points = begin + count;
-      totals.stretches = end.y + end.w;
-    }
+    begin = end;
+    if (drawn < boxes[i].count) open |= 1u << i - first;
   }
-  atomicAdd(totals.visible, counts.x);
-  atomicAdd(totals.occluded, counts.y);
+  wishing[block] = 0u;  // until they are asked again
+  if (block == blocks - 1u) {
+    totals.points = begin;
+    totals.stretches = before.y + before.w;
+  }
   for (uint slot = atomicAdd(totals.open, uint(bitCount(open))); open != 0u; open &= open - 1u)
     open_clusters[slot++] = first + uint(findLSB(open));
 }

@@ -2,15 +2,14 @@
 layout(std430, binding = 0) readonly buffer Boxes { ClusterBox boxes[]; };
 layout(std430, binding = 1) buffer States { ClusterState states[]; };
 layout(std430, binding = 4) readonly buffer Wishes { uint wishes[]; };
+layout(std430, binding = 3) buffer Wishing { uint wishing[]; };  // a bit for each of a block of BLOCK clusters
 layout(std430, binding = 5) buffer Summary { Totals totals; uvec2 chunk_begins[MOST_CHUNKS]; uint urgencies[]; };
 layout(std430, binding = 6) buffer BlockSums { uvec4 block_sums[]; };
-layout(location = 0) uniform uint clusters;
+layout(location = 0) uniform uint blocks;
 
 // Points and clusters above the cut (x, y) and at the cut (z, w).
 uvec4 wish_of(uint i) {
-  if (i >= clusters) return uvec4(0u);
   uint wish = wishes[i] & kWishMask;
-  if (wish == 0u) return uvec4(0u);
   if (totals.factor > 1u) wish = min(wish * totals.factor, boxes[i].count - states[i].drawn);
   int urgency = int(wishes[i] >> kWishBits);
   if (urgency < totals.cut) return uvec4(0u);

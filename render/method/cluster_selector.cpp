@@ -15,9 +15,12 @@ struct Stretch {
   std::uint32_t cluster, begin, first, count;
 };
 struct Totals {
-  std::uint32_t points, stretches, open, visible, occluded;
+  std::uint32_t points, stretches, open;
   std::int32_t cut;
   std::uint32_t allowance, factor;
+};
+struct Sight {
+  std::uint32_t visible, occluded;
 };
 struct ChunkBegin {
   std::uint32_t point, stretch;
@@ -28,10 +31,12 @@ constexpr std::size_t kUrgencies = 1024;
 constexpr std::size_t kSummaryHead = sizeof(Totals) + ClusterTable::kMostChunks * sizeof(ChunkBegin);
 
 constexpr std::size_t kProspectBytes = 3 * sizeof(float);
+constexpr std::size_t kSilhouetteBytes = 4 * sizeof(std::uint32_t);
 constexpr std::size_t kMostProbed = 4096;
 
-// Clusters that one invocation of the scan works off.
-constexpr std::size_t kBlock = 32;
+// Clusters that one invocation of the scan works off: a bit each in a word.
+constexpr std::size_t kBlock = ClusterTable::kBlock;
+static_assert(kBlock == 32);
 
 std::size_t blocks_of(std::size_t clusters) {
   return (clusters + kBlock - 1) / kBlock;
@@ -49,6 +54,7 @@ Program compile(const char* shader, std::vector<ShaderDefine> defines = {}) {
 ClusterSelector::ClusterSelector(const ClusterTable& table, const Options& options)
     : table_(table),
       options_(options),
+      outline_(compile("select_outline.glsl")),
       test_from_image_(compile("select_test.glsl")),
       test_from_attachment_(compile("select_test.glsl", {{"FROM_ATTACHMENT"}})),
       score_(compile("select_score.glsl")),
@@ -61,7 +67,10 @@ ClusterSelector::ClusterSelector(const ClusterTable& table, const Options& optio
       states_(table.capacity * sizeof(ClusterState)),
       open_clusters_(table.capacity * sizeof(std::uint32_t)),
       wishes_(table.capacity * sizeof(std::uint32_t)),
+      wishing_(blocks_of(table.capacity) * sizeof(std::uint32_t)),
+      sight_(sizeof(Sight)),
       summary_(kSummaryHead + kUrgencies * sizeof(std::uint32_t)),
+      silhouettes_(table.capacity * kSilhouetteBytes),
       prospects_(table.capacity * kProspectBytes),
       block_sums_(blocks_of(table.capacity) * sizeof(glm::uvec4)),
       stretches_(table.capacity * sizeof(Stretch)),
@@ -70,18 +79,21 @@ ClusterSelector::ClusterSelector(const ClusterTable& table, const Options& optio
 }
 
 std::uint64_t ClusterSelector::bytes_for(std::uint64_t clusters, std::uint64_t budget) {
-  return clusters * (sizeof(ClusterState) + sizeof(Stretch) + 2 * sizeof(std::uint32_t) + kProspectBytes) +
+  return clusters *
+             (sizeof(ClusterState) + sizeof(Stretch) + 2 * sizeof(std::uint32_t) + kSilhouetteBytes + kProspectBytes) +
          budget * sizeof(std::uint32_t);
 }
 
 void ClusterSelector::forget() {
   states_.fill(0);
+  wishing_.fill(0);
   start_view();
 }
 
 void ClusterSelector::start_view() {
   drawn_ = nullptr;
   selected_ = false;
+  added_ = 0;
 }
 
 ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t budget) {
@@ -89,8 +101,15 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
   selected_ = true;
   taken_.clear();
   if (table_.size == 0) return {};
-  test({table_.boxes, table_.log_pixels, states_, prospects_, new_view ? table_.size : open_, new_view});
-  score(view);
+  const Tested tested{table_.boxes, table_.log_pixels, states_, sight_, silhouettes_, prospects_, new_view};
+  if (new_view) sight_.fill(0);
+  if (new_view)
+    outline(tested, 0, table_.size);
+  else
+    outline(tested, open_ - added_, added_);
+  added_ = 0;
+  if (sees_depth()) test(tested, open_);
+  score(view, new_view ? table_.size : open_, new_view);
   rank(std::min(budget, options_.largest_budget));
   Result result = read_back();
   open_ = result.open;
@@ -100,27 +119,42 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
   places_.bind_storage(2);
   const std::uint32_t stretches = taken_.back().first_stretch + taken_.back().stretches;
   glUniform1ui(0, stretches);
-  dispatch_items(stretches, 1);
+  dispatch_items(stretches, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   return result;
 }
 
-void ClusterSelector::test(const Tested& tested) {
-  const bool attachment = drawn_ && drawn_->depth_storage() == DepthStorage::attachment;
-  (attachment ? test_from_attachment_ : test_from_image_).use();
-  if (drawn_) drawn_->depth().bind(0);
+void ClusterSelector::outline(const Tested& tested, std::uint32_t first, std::uint32_t count) {
+  outline_.use();
   tested.boxes.bind_storage(0);
   tested.states.bind_storage(1);
   tested.log_pixels.bind_storage(2);
+  open_clusters_.bind_storage(4);
+  tested.sight.bind_storage(5);
+  tested.silhouettes.bind_storage(6);
+  tested.prospects.bind_storage(7);
+  glUniform1ui(0, count);
+  glUniform1ui(1, first);
+  glUniform1i(2, tested.all ? 1 : 0);
+  glUniform1i(3, DepthPyramid::kMostLevels);
+  glUniform1f(4, static_cast<float>(table_.root_edge));
+  dispatch_items(count, 64);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void ClusterSelector::test(const Tested& tested, std::uint32_t count) {
+  (drawn_->depth_storage() == DepthStorage::attachment ? test_from_attachment_ : test_from_image_).use();
+  drawn_->depth().bind(0);
+  tested.states.bind_storage(1);
   pyramid_.values().bind_storage(3);
   open_clusters_.bind_storage(4);
+  tested.sight.bind_storage(5);
+  tested.silhouettes.bind_storage(6);
   tested.prospects.bind_storage(7);
-  glUniform1ui(0, tested.count);
-  glUniform1i(1, tested.all ? 1 : 0);
-  glUniform1i(3, drawn_ && options_.skip_occluded ? static_cast<GLint>(pyramid_.levels()) : 0);
-  glUniform1f(4, static_cast<float>(table_.root_edge));
+  glUniform1ui(0, count);
+  glUniform1i(2, tested.all ? 1 : 0);
   glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid_.level_table()[0].first);
-  dispatch_items(tested.count, 64);
+  dispatch_items(count, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
@@ -135,6 +169,7 @@ void ClusterSelector::add(std::span<const ClusterRun> runs) {
   if (!selected_) return;  // the first select() of a view tests all
   open_clusters_.write(open_ * sizeof(std::uint32_t), std::span<const std::uint32_t>(clusters));
   open_ += static_cast<std::uint32_t>(clusters.size());
+  added_ += static_cast<std::uint32_t>(clusters.size());
 }
 
 void ClusterSelector::remove(std::span<const ClusterRun> runs) {
@@ -154,7 +189,8 @@ std::vector<bool> ClusterSelector::hidden(std::span<const GridBox> boxes) {
   if (!probe_) {
     probe_.emplace(Probe{GpuBuffer(kMostProbed * sizeof(ClusterTable::Row)),
                          GpuBuffer(kMostProbed * ClusterTable::kLevels * sizeof(float)),
-                         GpuBuffer(kMostProbed * sizeof(ClusterState)), GpuBuffer(kMostProbed * kProspectBytes)});
+                         GpuBuffer(kMostProbed * sizeof(ClusterState)), GpuBuffer(sizeof(Sight)),
+                         GpuBuffer(kMostProbed * kSilhouetteBytes), GpuBuffer(kMostProbed * kProspectBytes)});
     probe_->log_pixels.fill(0);
   }
   std::vector<bool> result;
@@ -164,8 +200,10 @@ std::vector<bool> ClusterSelector::hidden(std::span<const GridBox> boxes) {
     for (const GridBox& box : some) rows.push_back({box.min, 0, box.max, 1});
     probe_->boxes.write(0, std::span<const ClusterTable::Row>(rows));
     probe_->states.fill(0);
-    test({probe_->boxes, probe_->log_pixels, probe_->states, probe_->prospects, static_cast<std::uint32_t>(some.size()),
-          true});
+    const Tested tested{
+        probe_->boxes, probe_->log_pixels, probe_->states, probe_->sight, probe_->silhouettes, probe_->prospects, true};
+    outline(tested, 0, static_cast<std::uint32_t>(some.size()));
+    test(tested, static_cast<std::uint32_t>(some.size()));
     std::vector<ClusterState> states(some.size());
     probe_->states.read(0, states.data(), states.size() * sizeof(ClusterState));
     for (const ClusterState& state : states) result.push_back(state.status != kOpen);
@@ -173,15 +211,21 @@ std::vector<bool> ClusterSelector::hidden(std::span<const GridBox> boxes) {
   return result;
 }
 
-void ClusterSelector::score(const View& view) {
+void ClusterSelector::score(const View& view, std::uint32_t count, bool all) {
   summary_.fill(0);
+  table_.boxes.bind_storage(0);
+  states_.bind_storage(1);
+  open_clusters_.bind_storage(2);
+  wishing_.bind_storage(3);
   wishes_.bind_storage(4);
   summary_.bind_storage(5);
+  prospects_.bind_storage(7);
   score_.use();
-  glUniform1ui(0, table_.size);
+  glUniform1ui(0, count);
   glUniform1i(1, options_.by_yield ? 1 : 0);
   glUniform1f(2, static_cast<float>(view.near));
-  dispatch_items(table_.size, 64);
+  glUniform1i(3, all ? 1 : 0);
+  dispatch_items(count, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -193,17 +237,18 @@ void ClusterSelector::rank(std::uint32_t budget) {
   glUniform1ui(0, budget);
   glDispatchCompute(1, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  const auto blocks = static_cast<GLuint>(blocks_of(table_.size));
   sums_.use();
-  glUniform1ui(0, table_.size);
-  dispatch_items(blocks_of(table_.size), 64);
+  glUniform1ui(0, blocks);
+  dispatch_items(blocks, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   scan_.use();
-  glUniform1ui(0, static_cast<GLuint>(blocks_of(table_.size)));
+  glUniform1ui(0, blocks);
   glDispatchCompute(1, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   take_.use();
-  glUniform1ui(0, table_.size);
-  dispatch_items(blocks_of(table_.size), 64);
+  glUniform1ui(0, blocks);
+  dispatch_items(blocks, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
@@ -215,7 +260,9 @@ ClusterSelector::Result ClusterSelector::read_back() {
   const std::size_t chunks = table_.chunks.size();
   summary_.read(0, &head, sizeof(Totals) + chunks * sizeof(ChunkBegin));
   head.begins[chunks] = {head.totals.points, head.totals.stretches};
-  Result result{{}, head.totals.points, head.totals.open, head.totals.visible, head.totals.occluded};
+  Sight sight{};
+  sight_.read(0, &sight, sizeof sight);
+  Result result{{}, head.totals.points, head.totals.open, sight.visible, sight.occluded};
   for (std::size_t c = 0; c < chunks; ++c) {
     const ChunkBegin& begin = head.begins[c];
     const ChunkBegin& end = head.begins[c + 1];
@@ -230,6 +277,7 @@ void ClusterSelector::learn(const FeedbackTarget& frame) {
     frame.ids().bind(1);
     states_.bind_storage(2);
     places_.bind_storage(3);
+    table_.boxes.bind_storage(4);
     stretches_.bind_storage(7);
     for (std::size_t c = 0; c < taken_.size(); ++c) {
       if (taken_[c].stretches == 0) continue;

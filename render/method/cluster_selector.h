@@ -58,7 +58,8 @@ class ClusterSelector {
   std::optional<std::uint32_t> open() const { return selected_ ? std::optional(open_) : std::nullopt; }
   // Which they are; empty while unknown. Waits for the GPU.
   std::vector<std::uint32_t> open_clusters() const;
-  // Which of these boxes are certainly hidden behind what is drawn in this view, or outside of it. Waits for the GPU.
+  // Which of these boxes are certainly hidden behind what is drawn in this view, or outside of it; sees_depth() must
+  // hold. Waits for the GPU.
   std::vector<bool> hidden(std::span<const GridBox> boxes);
   // Whether hidden() can tell: something was drawn in this view.
   bool sees_depth() const { return drawn_ && options_.skip_occluded; }
@@ -78,17 +79,20 @@ class ClusterSelector {
     const GpuBuffer& boxes;
     const GpuBuffer& log_pixels;
     const GpuBuffer& states;
+    const GpuBuffer& sight;
+    const GpuBuffer& silhouettes;
     const GpuBuffer& prospects;
-    std::uint32_t count;
-    bool all;  // rows [0, count), as of a new view; else the first `count` of the open clusters
+    bool all;  // its rows from the first on; else the open clusters
   };
   // Of up to kMostProbed boxes that are no clusters.
   struct Probe {
-    GpuBuffer boxes, log_pixels, states, prospects;
+    GpuBuffer boxes, log_pixels, states, sight, silhouettes, prospects;
   };
 
-  void test(const Tested& tested);
-  void score(const View& view);
+  void outline(const Tested& tested, std::uint32_t first, std::uint32_t count);
+  void test(const Tested& tested, std::uint32_t count);
+  // Of all clusters, or of the first `count` open ones.
+  void score(const View& view, std::uint32_t count, bool all);
   void rank(std::uint32_t budget);
   Result read_back();
 
@@ -97,7 +101,9 @@ class ClusterSelector {
   DepthPyramid pyramid_;
   const FeedbackTarget* drawn_ = nullptr;  // in this view; null: nothing yet
   std::uint32_t open_ = 0;                 // clusters open after the last select(), and those added since
+  std::uint32_t added_ = 0;                // of them, since
   bool selected_ = false;                  // in this view
+  Program outline_;
   Program test_from_image_;
   Program test_from_attachment_;
   Program score_;
@@ -110,7 +116,10 @@ class ClusterSelector {
   GpuBuffer states_;
   GpuBuffer open_clusters_;
   GpuBuffer wishes_;
+  GpuBuffer wishing_;
+  GpuBuffer sight_;
   GpuBuffer summary_;
+  GpuBuffer silhouettes_;
   GpuBuffer prospects_;
   GpuBuffer block_sums_;
   GpuBuffer stretches_;

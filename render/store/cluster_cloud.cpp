@@ -48,23 +48,32 @@ ClusterTable upload_clusters(const PointSet& points) {
       cut_clusters(points.grid, points.bounds, points.points, points_of_a_cluster(points.size()), table.root_edge);
   const std::span<const std::uint32_t> order(cut.order);
   std::vector<ClusterTable::Row> rows;
-  rows.reserve(cut.clusters.size());
+  std::vector<float> log_pixels;
   std::uint32_t chunk_first = 0;
-  for (const ClusterCut::Piece& cluster : cut.clusters) {
+  for (std::size_t c = 0; c < cut.clusters.size(); ++c) {
+    const ClusterCut::Piece& cluster = cut.clusters[c];
     if (cluster.first + cluster.count - chunk_first > ClusterTable::kChunkPoints) {
       append_chunk(table, points, order.subspan(chunk_first, cluster.first - chunk_first));
       chunk_first = cluster.first;
+      const auto last = static_cast<std::uint32_t>(table.chunks.size() - 1) << ClusterTable::kPlaceBits;
+      // Not at place 0, which begins a chunk
+      while (rows.size() % ClusterTable::kBlock != 0) {
+        rows.push_back({{}, last | 1u, {}, 0});
+        log_pixels.insert(log_pixels.end(), ClusterTable::kLevels, 0.0f);
+      }
     }
     const auto chunk = static_cast<std::uint32_t>(table.chunks.size());
     rows.push_back({cluster.box.min, chunk << ClusterTable::kPlaceBits | (cluster.first - chunk_first), cluster.box.max,
                     cluster.count});
+    const auto levels = cut.log_pixels.begin() + static_cast<std::ptrdiff_t>(c * ClusterTable::kLevels);
+    log_pixels.insert(log_pixels.end(), levels, levels + ClusterTable::kLevels);
   }
   if (points.size() > chunk_first) append_chunk(table, points, order.subspan(chunk_first));
   table.size = table.capacity = static_cast<std::uint32_t>(rows.size());
   table.boxes = GpuBuffer(rows.size() * sizeof(ClusterTable::Row));
   table.boxes.write(0, std::span<const ClusterTable::Row>(rows));
-  table.log_pixels = GpuBuffer(cut.log_pixels.size() * sizeof(float));
-  table.log_pixels.write(0, std::span<const float>(cut.log_pixels));
+  table.log_pixels = GpuBuffer(log_pixels.size() * sizeof(float));
+  table.log_pixels.write(0, std::span<const float>(log_pixels));
   return table;
 }
 

@@ -17,6 +17,8 @@ struct ClusterTable {
   static constexpr std::uint32_t kChunkPoints = 1u << kPlaceBits;
   static constexpr std::uint32_t kMostChunks = 1024;  // what the other bits can tell apart
   static constexpr int kLevels = kMaxLevel + 1;
+  // A chunk begins with a cluster whose number is a multiple of it; rows without points fill the gap.
+  static constexpr std::uint32_t kBlock = 32;
   // Tables must not outgrow what shaders reach on Mesa's software renderer, 128 MiB.
   static constexpr std::uint32_t kMostClusters = 1'000'000;
 
