@@ -3,7 +3,7 @@
 // The id that stands for "no point": point 0 is a point.
 const uint kNoPoint = 0xFFFFFFFFu;
 
-// Carried vertices: how many there are, and the commands that draw them.
+// Carried vertices, or places of points: how many there are, and the commands that draw them.
 struct CarriedCommand {
   uint count;           // glDrawArraysIndirect: vertices,
   uint instance_count;  // instances,
@@ -12,4 +12,14 @@ struct CarriedCommand {
   uint groups_x;        // glDispatchComputeIndirect
   uint groups_y;
   uint groups_z;
+  uint begin;           // place of the first in their buffer
 };
+
+// How the compute rasterizer draws command.count points in work groups of this size.
+void set_groups(inout CarriedCommand command, uint group_size) {
+  uint groups = (command.count + group_size - 1u) / group_size;
+  uint rows = (groups + 65534u) / 65535u;
+  command.groups_x = rows == 0u ? 0u : (groups + rows - 1u) / rows;
+  command.groups_y = max(rows, 1u);
+  command.groups_z = 1u;
+}

@@ -1,6 +1,7 @@
 // Where the points of a pass come from:
 //   SOURCE_RANGE    consecutive points of a buffer (fill)
 //   SOURCE_VERTICES points collected from the last frame, counted on the GPU (reproject as S19)
+//   SOURCE_INDICES  places of points collected from the last frame, counted on the GPU (reproject as S18)
 //   SOURCE_PICKS    points of a buffer in the places that another names (fill by cluster)
 //   SOURCE_GRID     the last frame itself, a point a pixel (reproject as T16)
 // A PointIndex names one of them: a number, or a pixel, because dividing numbers costs more than all the rest.
@@ -34,14 +35,21 @@ layout(location = 3) uniform bool source_has_ids;
 #ifdef SOURCE_VERTICES
 layout(std430, binding = 2) readonly buffer SourceCommand { CarriedCommand source_command; };
 uint source_count() { return source_command.count; }
+#elif defined(SOURCE_INDICES)
+layout(std430, binding = 4) readonly buffer SourceCommands { CarriedCommand source_commands[]; };
+uint source_count() { return source_commands[source_first].count; }
 #else
 layout(location = 1) uniform uint source_size;
 uint source_count() { return source_size; }
 #endif
 
-#ifdef SOURCE_PICKS
+#if defined(SOURCE_PICKS) || defined(SOURCE_INDICES)
 layout(std430, binding = 2) readonly buffer SourcePlaces { uint source_places[]; };
+#endif
+#if defined(SOURCE_PICKS)
 uint place_of(uint i) { return source_places[source_first + i]; }
+#elif defined(SOURCE_INDICES)
+uint place_of(uint i) { return source_places[source_commands[source_first].begin + i]; }
 #else
 uint place_of(uint i) { return source_first + i; }
 #endif

@@ -143,7 +143,8 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
                                                      static_cast<std::uint32_t>(points.size())));
     case Mode::unstructured:
       check_room(mode, points.size(), points.size() * kGpuBytesPerPoint, options.limits);
-      return std::make_unique<Unstructured>(points, options.seed);
+      return std::make_unique<Unstructured>(points, options.seed,
+                                            options.carry_indices ? Carry::indices : Carry::vertices);
     case Mode::hybrid:
       return make_hybrid(points, options);
     case Mode::lod:

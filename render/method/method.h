@@ -20,6 +20,7 @@ enum class Carry {
   none,      // not at all: each frame starts from nothing
   grid,      // T16: a screen-filling grid of points reads the last target
   vertices,  // S19: a prepare pass collects the visible points in a vertex buffer
+  indices,   // S18: as their places in buffers that the method has; it draws them itself
 };
 
 // What to draw in a frame.
@@ -47,7 +48,8 @@ class Method {
   virtual void start_view(const View& view) = 0;
   // The next points for this view, at most `budget`. Valid until the next call. The view block is bound.
   virtual Selection select(std::uint32_t budget) = 0;
-  // The frame with the selected points is drawn; the view block is still bound.
+  // The frame with the selected points is drawn, or one of another method that this one goes on from; the view block is
+  // still bound.
   virtual void frame_drawn(const FeedbackTarget&) {}
   // Nothing is left for this view: the picture equals the brute-force picture, but for mode lod, which stops at the
   // budget.
@@ -70,8 +72,9 @@ struct MethodOptions {
   std::uint64_t seed = 0;                  // of the shuffle
   std::uint32_t largest_budget = 1 << 20;  // points select() may be asked for; limits may allow fewer
   MemoryLimits limits{};
-  bool skip_occluded = true;  // hybrid: leave out clusters that are wholly hidden
-  bool by_yield = true;       // hybrid: clusters whose points are seen go first
+  bool skip_occluded = true;   // hybrid: leave out clusters that are wholly hidden
+  bool by_yield = true;        // hybrid: clusters whose points are seen go first
+  bool carry_indices = false;  // unstructured: as S18, not as S19
 };
 
 // Points (and the tree, where the mode needs one: points then stand in its store order) must outlive the method.

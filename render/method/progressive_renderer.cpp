@@ -34,6 +34,7 @@ void ProgressiveRenderer::use(Method& method) {
     vertices_->prepare(current());
   }
   if (view_.size == glm::ivec2(0)) return;
+  if (method_->carry() == Carry::indices) method_->frame_drawn(current());
   view_drawn_ = false;
   method_->start_view(view_);
 }
@@ -47,6 +48,8 @@ void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
       break;
     case Carry::vertices:
       items.push_back(vertices_->vertices());
+      break;
+    case Carry::indices:
       break;
   }
 }

@@ -19,6 +19,10 @@ void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> i
     if (const auto* vertices = std::get_if<CarriedVertices>(&item)) {
       glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, vertices->command->name());
       glDispatchComputeIndirect(offsetof(CarriedCommand, groups_x));
+    } else if (const auto* indices = std::get_if<CarriedIndices>(&item)) {
+      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, indices->commands->name());
+      glDispatchComputeIndirect(
+          static_cast<GLintptr>(indices->command * sizeof(CarriedCommand) + offsetof(CarriedCommand, groups_x)));
     } else if (const auto* grid = std::get_if<CarriedGrid>(&item)) {
       dispatch_pixels(grid->previous->size());
     } else {

@@ -15,6 +15,9 @@ void draw_points(const SourcePrograms& programs, std::span<const DrawItem> items
     if (const auto* vertices = std::get_if<CarriedVertices>(&item)) {
       glBindBuffer(GL_DRAW_INDIRECT_BUFFER, vertices->command->name());
       glDrawArraysIndirect(GL_POINTS, nullptr);
+    } else if (const auto* indices = std::get_if<CarriedIndices>(&item)) {
+      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, indices->commands->name());
+      glDrawArraysIndirect(GL_POINTS, reinterpret_cast<const void*>(indices->command * sizeof(CarriedCommand)));
     } else if (const auto* grid = std::get_if<CarriedGrid>(&item)) {
       glDrawArraysInstanced(GL_POINTS, 0, grid->previous->size().x, grid->previous->size().y);
     } else {

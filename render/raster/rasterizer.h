@@ -43,13 +43,22 @@ struct PickedPoints {
   std::uint32_t count = 0;
 };
 
-using DrawItem = std::variant<PointRange, CarriedVertices, CarriedGrid, PickedPoints>;
+// Points of a buffer, whose places in it were collected on the GPU from the last frame; how many, only the GPU knows.
+struct CarriedIndices {
+  const GpuBuffer* points = nullptr;
+  const GpuBuffer* ids = nullptr;       // uint32 a point
+  const GpuBuffer* places = nullptr;    // uint32; as many as the picture has pixels
+  const GpuBuffer* commands = nullptr;  // CarriedCommands, of which this item's is
+  std::uint32_t command = 0;            // number
+};
+
+using DrawItem = std::variant<PointRange, CarriedVertices, CarriedGrid, PickedPoints, CarriedIndices>;
 
 // Layout of CarriedCommand in shaders/packing.glsl.
 struct CarriedCommand {
   std::uint32_t count, instance_count, first, base_instance;  // glDrawArraysIndirect
   std::uint32_t groups_x, groups_y, groups_z;                 // glDispatchComputeIndirect
-  std::uint32_t padding;
+  std::uint32_t begin;
 };
 
 enum class RasterizerKind { points, compute };

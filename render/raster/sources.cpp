@@ -42,6 +42,15 @@ void bind(const PickedPoints& picked) {
   glUniform1i(3, 1);
 }
 
+void bind(const CarriedIndices& carried) {
+  carried.points->bind_storage(0);
+  carried.ids->bind_storage(1);
+  carried.places->bind_storage(2);
+  carried.commands->bind_storage(4);
+  glUniform1ui(0, carried.command);
+  glUniform1i(3, 1);
+}
+
 }  // namespace
 
 void SourcePrograms::use_for(const DrawItem& item) const {
@@ -67,6 +76,7 @@ std::size_t item_capacity(const DrawItem& item) {
   if (const auto* picked = std::get_if<PickedPoints>(&item)) return picked->count;
   if (const auto* grid = std::get_if<CarriedGrid>(&item))
     return static_cast<std::size_t>(grid->previous->size().x) * static_cast<std::size_t>(grid->previous->size().y);
+  if (const auto* indices = std::get_if<CarriedIndices>(&item)) return indices->places->bytes() / sizeof(std::uint32_t);
   return std::get<CarriedVertices>(item).points->bytes() / sizeof(PackedPoint);
 }
 

@@ -17,7 +17,8 @@ class SourcePrograms {
   template <class Make>
   SourcePrograms(const std::string& pass, Make make)
       : programs_{make({{"SOURCE_RANGE"}, {pass}}), make({{"SOURCE_VERTICES"}, {pass}}),
-                  make({{"SOURCE_GRID"}, {pass}}), make({{"SOURCE_PICKS"}, {pass}})} {}
+                  make({{"SOURCE_GRID"}, {pass}}), make({{"SOURCE_PICKS"}, {pass}}),
+                  make({{"SOURCE_INDICES"}, {pass}})} {}
 
   // Uses the program for this item and binds the item's points to it.
   void use_for(const DrawItem& item) const;

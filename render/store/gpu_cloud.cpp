@@ -119,11 +119,13 @@ std::uint32_t largest_shuffle_prime(std::uint32_t n) {
   return p;
 }
 
-std::uint32_t shuffled_slot(std::uint32_t i, std::uint32_t n, std::uint64_t seed) {
-  const std::uint32_t prime = largest_shuffle_prime(n);
-  if (i >= prime) return i;
-  const auto shifted = static_cast<std::uint32_t>((std::uint64_t{permute(i, prime)} + seed % prime) % prime);
-  return permute(shifted, prime);
+ShuffledSlots::ShuffledSlots(std::uint32_t n, std::uint64_t seed)
+    : prime_(largest_shuffle_prime(n)), shift_(prime_ ? static_cast<std::uint32_t>(seed % prime_) : 0) {}
+
+std::uint32_t ShuffledSlots::operator()(std::uint32_t i) const {
+  if (i >= prime_) return i;
+  const auto shifted = static_cast<std::uint32_t>((std::uint64_t{permute(i, prime_)} + shift_) % prime_);
+  return permute(shifted, prime_);
 }
 
 }  // namespace stipple

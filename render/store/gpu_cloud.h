@@ -25,6 +25,7 @@ class GpuCloud {
 
   std::size_t size() const { return size_; }
   std::span<Chunk> chunks() { return chunks_; }
+  std::span<const Chunk> chunks() const { return chunks_; }
 
   // Appends the items that draw slots [first, first + count): one a chunk they touch.
   void append_items(std::size_t first, std::size_t count, std::vector<DrawItem>& items) const;
@@ -45,7 +46,18 @@ GpuCloud upload_shuffled(const PointSet& points, std::uint64_t seed);
 // The largest prime p <= n with p = 3 mod 4, or 0 when n < 3.
 std::uint32_t largest_shuffle_prime(std::uint32_t n);
 
-// Where upload_shuffled puts point i of n, on the CPU: for tests.
-std::uint32_t shuffled_slot(std::uint32_t i, std::uint32_t n, std::uint64_t seed);
+// Where upload_shuffled puts point i of n, on the CPU.
+class ShuffledSlots {
+ public:
+  ShuffledSlots(std::uint32_t n, std::uint64_t seed);
+  std::uint32_t operator()(std::uint32_t i) const;
+
+ private:
+  std::uint32_t prime_;
+  std::uint32_t shift_;
+};
+inline std::uint32_t shuffled_slot(std::uint32_t i, std::uint32_t n, std::uint64_t seed) {
+  return ShuffledSlots(n, seed)(i);
+}
 
 }  // namespace stipple

@@ -31,6 +31,11 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
   command.add_option("--seed", options.seed, "Seed of the shuffle of mode unstructured, a whole number from 0.")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command
+      .add_option("--carry", options.carry,
+                  "How mode unstructured carries what the last frame shows: vertex (Schuetz and others 2019) or index "
+                  "(Schuetz and Wimmer 2018; not for octrees on disk).")
+      ->capture_default_str();
   command.add_option("--memory", options.memory,
                      "Main memory that points may take, with k, M or G for powers of 1024 bytes; the program itself "
                      "comes on top. A cloud that needs more is refused, unless it is an octree drawn in mode "
@@ -72,6 +77,9 @@ MemoryLimits limits_of(const DrawOptions& options) {
 MethodOptions method_options_of(const DrawOptions& options) {
   MethodOptions method{
       .seed = options.seed, .largest_budget = largest_budget(budget_of(options)), .limits = limits_of(options)};
+  if (options.carry != "vertex" && options.carry != "index")
+    throw UsageError(fmt::format("--carry {}: expected vertex or index", options.carry));
+  method.carry_indices = options.carry == "index";
   for (const std::string& name : options.no_skip) {
     if (name == "occlusion")
       method.skip_occluded = false;

@@ -22,6 +22,7 @@ struct DrawOptions {
   std::string color;
   std::string background = "808080";
   std::uint64_t seed = 0;
+  std::string carry = "vertex";
   std::string memory;
   std::string gpu_memory;
   std::vector<std::string> no_skip;

@@ -161,6 +161,7 @@ void run(const Options& options) {
   Json stats{{"mode", options.mode},
              {"raster", mode ? Json(options.draw.raster) : Json()},
              {"seed", options.draw.seed},
+             {"carry", options.draw.carry},
              {"budget", budget_in_use(options, dataset)},
              {"skip_occluded", method.skip_occluded},
              {"by_yield", method.by_yield},

@@ -215,7 +215,8 @@ std::string InputStudy::provenance(const Route& route, const Curve& curve) const
             {"budget", settings_.budget.points},
             {"point_size", settings_.point_size},
             {"background", fmt::format("{:06x}", settings_.background)},
-            {"seed", settings_.method.seed}};
+            {"seed", settings_.method.seed},
+            {"carry", settings_.method.carry_indices ? "index" : "vertex"}};
   // That of a picture on a path is where the path has it in that frame
   if (curve.regime == name_of(Regime::path)) {
     json.erase("view");

@@ -12,24 +12,23 @@
 namespace stipple::test {
 namespace {
 
-using Progressive = std::tuple<Mode, RasterizerKind>;
+// "index": mode unstructured as S18.
+using Progressive = std::tuple<std::string, RasterizerKind>;
 
 class EachMethod : public testing::TestWithParam<Progressive> {
  protected:
-  Mode mode() const { return std::get<0>(GetParam()); }
+  bool by_index() const { return std::get<0>(GetParam()) == "index"; }
+  Mode mode() const { return by_index() ? Mode::unstructured : *mode_named(std::get<0>(GetParam())); }
   RasterizerKind rasterizer() const { return std::get<1>(GetParam()); }
   std::unique_ptr<Method> method(const Dataset& dataset, std::uint64_t seed = 0) const {
-    return make_method(mode(), dataset.points, &*dataset.octree, {.seed = seed});
+    return make_method(mode(), dataset.points, &*dataset.octree, {.seed = seed, .carry_indices = by_index()});
   }
 };
-INSTANTIATE_TEST_SUITE_P(Methods, EachMethod,
-                         testing::Combine(testing::Values(Mode::hierarchical, Mode::unstructured, Mode::hybrid,
-                                                          Mode::subsample),
-                                          testing::Values(RasterizerKind::points, RasterizerKind::compute)),
-                         [](const auto& param) {
-                           return std::string(name_of(std::get<0>(param.param))) + "_" +
-                                  std::string(name_of(std::get<1>(param.param)));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Methods, EachMethod,
+    testing::Combine(testing::Values("hierarchical", "unstructured", "index", "hybrid", "subsample"),
+                     testing::Values(RasterizerKind::points, RasterizerKind::compute)),
+    [](const auto& param) { return std::get<0>(param.param) + "_" + std::string(name_of(std::get<1>(param.param))); });
 
 constexpr std::uint64_t kPoints = 60'000;
 const char* const kScenes[] = {"city", "terrain", "forest", "interior", "corridor"};
@@ -116,7 +115,7 @@ TEST_P(EachMethod, DrawsEachPointAtMostOnceForAStillView) {
 TEST_P(EachMethod, AnEmptyCloudConvergesToAnEmptyPicture) {
   const PointSet nothing = points_at({});
   const Octree no_tree;
-  const auto drawn = make_method(mode(), nothing, &no_tree);
+  const auto drawn = make_method(mode(), nothing, &no_tree, {.carry_indices = by_index()});
   EXPECT_EQ(converged_picture(*drawn, rasterizer(), nothing.grid, front_view(2.0), 1000).covered_pixels(), 0u);
 }
 

@@ -11,10 +11,11 @@ constexpr std::uint64_t kPoints = 60'000;
 
 class Toggle : public testing::TestWithParam<RasterizerKind> {
  protected:
-  // One of each mode.
+  // One of each mode, and S18.
   std::vector<std::unique_ptr<Method>> methods(const Dataset& dataset) const {
     std::vector<std::unique_ptr<Method>> made;
     for (const Mode mode : all_modes()) made.push_back(make_method(mode, dataset.points, &*dataset.octree));
+    made.push_back(make_method(Mode::unstructured, dataset.points, &*dataset.octree, {.carry_indices = true}));
     return made;
   }
 };
@@ -27,14 +28,15 @@ TEST_P(Toggle, LosesNoPoint) {
   const auto made = methods(dataset);
   for (const auto& from : made)
     for (const auto& to : made) {
-      if (from == to || to->carry() == Carry::none) continue;
+      const bool starts_from_nothing = to == made[0] || to == made[4] || to == made[5];  // brute-force, lod, subsample
+      if (from == to || starts_from_nothing) continue;
       ProgressiveRenderer renderer(*from, GetParam(), dataset.points.grid);
       for (int frame = 0; frame < 3; ++frame) renderer.draw(view, 5'000);
       const FrameData before = renderer.read();
       ASSERT_GT(before.covered_pixels(), 1'000u);
       renderer.use(*to);
       renderer.draw(view, 0);
-      EXPECT_TRUE(same_picture(renderer.read(), before));
+      EXPECT_TRUE(same_picture(renderer.read(), before)) << &from - made.data() << " to " << &to - made.data();
     }
 }
 
@@ -44,7 +46,7 @@ TEST_P(Toggle, ConvergesToBruteForceOnTheMove) {
   const glm::dvec3 step = view.right * 3.0 + view.forward * 2.0;
   const auto made = methods(dataset);
   ProgressiveRenderer renderer(*made.front(), GetParam(), dataset.points.grid);
-  for (const std::size_t next : {1, 2, 3, 1, 3, 2, 1, 0, 3}) {
+  for (const std::size_t next : {1, 2, 3, 6, 1, 3, 2, 6, 1, 0, 3, 4, 5, 6, 3}) {
     renderer.use(*made[next]);
     for (int frame = 0; frame < 3; ++frame) {
       view.eye += step;

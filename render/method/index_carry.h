@@ -1,0 +1,37 @@
+// The carry of S18: Schuetz, Wimmer 2018, "Progressive Real-Time Rendering of Unprocessed Point Clouds", section 3.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/frame/feedback_target.h"
+#include "render/gpu/program.h"
+#include "render/store/gpu_cloud.h"
+
+namespace stipple {
+
+// Where S19 copies whole vertices, S18 keeps their places in the cloud's buffers, which are drawn indirectly.
+class IndexCarry {
+ public:
+  // `slot_of[id]`: where the cloud, which must outlive this, has the point. Throws Error when there are more than this
+  // driver's shaders reach.
+  IndexCarry(const GpuCloud& cloud, std::span<const std::uint32_t> slot_of);
+
+  // Nothing is carried.
+  void forget() { places_ = {}; }
+  // What this finished frame shows is carried.
+  void prepare(const FeedbackTarget& frame);
+  // The items that draw it, one a chunk.
+  void append_items(std::vector<DrawItem>& items) const;
+
+ private:
+  const GpuCloud& cloud_;
+  GpuBuffer slot_of_;
+  GpuBuffer places_;
+  GpuBuffer commands_;
+  Program count_;
+  Program begin_;
+  Program write_;
+};
+
+}  // namespace stipple
