@@ -200,7 +200,8 @@ const partsMoment = (row) => (row.regime === 'path' ? 'mean over frames' : 'firs
 
 function drawParts() {
   const place = $('#parts .charts');
-  const rows = ofDataset(report.study.summary).filter((row) => visible(row.mode));
+  // From nothing there is nothing to carry, and a chart of one colour says little
+  const rows = ofDataset(report.study.summary).filter((row) => visible(row.mode) && row.regime !== 'cold');
   for (const [title, group] of grouped(rows, (row) => `${routeName(row)}: ${partsMoment(row)}`))
     addChart(place, title, {
       type: 'bar',
