@@ -12,10 +12,6 @@
 namespace stipple {
 namespace {
 
-Json json_of(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
-
 // Over the repeats: null when any of them did not get there.
 Json reached_json(std::span<const Curve> repeats, const std::function<std::optional<Reached>(const Curve&)>& reach) {
   std::vector<double> times;
