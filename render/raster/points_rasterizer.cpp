@@ -5,7 +5,7 @@
 namespace stipple {
 namespace {
 
-Program compile(const std::vector<ShaderDefine>& defines) {
+Program compile_points(const std::vector<ShaderDefine>& defines) {
   return Program::graphics("raster_points_vertex.glsl", "raster_points_fragment.glsl", defines);
 }
 
@@ -35,9 +35,9 @@ GLuint make_vertex_array() {
 }  // namespace
 
 PointsRasterizer::PointsRasterizer()
-    : nearest_("PASS_NEAREST", compile),
-      claim_("PASS_CLAIM", compile),
-      repeat_("PASS_REPEAT", compile),
+    : nearest_("PASS_NEAREST", compile_points),
+      claim_("PASS_CLAIM", compile_points),
+      repeat_("PASS_REPEAT", compile_points),
       no_attributes_(make_vertex_array()),
       repeat_command_(4 * sizeof(std::uint32_t)) {}
 

@@ -6,6 +6,10 @@
 
 namespace stipple {
 
+Json json_of(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
 Json json_of(const glm::dvec3& v) {
   return Json::array({v.x, v.y, v.z});
 }

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "octree/cloud/attribute.h"
 #include "octree/cloud/grid.h"
@@ -12,6 +13,8 @@ namespace stipple {
 // Keys stay in the order in which they were added.
 using Json = nlohmann::ordered_json;
 
+// The number; null where there is none.
+Json json_of(const std::optional<double>& value);
 // [x, y, z]
 Json json_of(const glm::dvec3& v);
 // {"min": [x, y, z], "max": [x, y, z]}; null for an empty box.

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 // Bytes of PNG; base64 takes a third more.
 constexpr std::uint64_t kComparedBytes = std::uint64_t{11} << 20;
 constexpr std::uint64_t kFilmBytes = std::uint64_t{2} << 20;
-constexpr std::size_t kFilmLength = 6;
-constexpr int kFilmWidth = 240;  // pixels
+constexpr int kFilmWidth = 240;  // pixels, at most
 // Averaged pixels have more to say, each: how much larger PNG files are then, a pixel.
 constexpr double kShrunkenNoise = 1.3;
 
@@ -98,7 +97,8 @@ class Builder {
       : folder_(folder), scenes_(scenes_of(curves)), points_total_(points_total) {}
 
   ReportPictures build() {
-    choose();
+    choose_compared();
+    choose_film();
     for (const Scene& scene : scenes_) {
       const Curve& first = *scene.front();
       result_.scenes.push_back({{"dataset", first.dataset}, {"regime", first.regime}, {"view", first.view}});
@@ -139,22 +139,43 @@ class Builder {
     return file + "/" + last.filename().string();
   }
 
+  // Frames of a curve, and pixels along a side that one of the report's stands for.
+  struct Attempt {
+    std::size_t frames;
+    int scale;
+  };
+
+  // Of pictures of these files at this scale.
+  double estimated_bytes(const std::set<std::string>& files, int scale) const {
+    double bytes = 0.0;
+    for (const std::string& file : files) bytes += static_cast<double>(fs::file_size(folder_ / file));
+    return scale > 1 ? bytes * kShrunkenNoise / (scale * scale) : bytes;
+  }
+
   // As many frames as fit in whole; else fewer, else smaller ones.
-  void choose() {
-    struct Attempt {
-      std::size_t frames;
-      int scale;
-    };
+  void choose_compared() {
     for (const Attempt& attempt : {Attempt{6, 1}, {3, 1}, {1, 1}, {3, 2}, {1, 2}, {1, 3}, {1, 4}, {1, 6}, {1, 8}}) {
       frames_ = attempt.frames;
       result_.scale = attempt.scale;
       std::set<std::string> files;
       for (const Scene& scene : scenes_)
         for (const Choice& choice : choices(scene, frames_)) files.insert(choice.frame.file);
-      double bytes = 0.0;
-      for (const std::string& file : files) bytes += static_cast<double>(fs::file_size(folder_ / file));
-      if (attempt.scale > 1) bytes *= kShrunkenNoise / (attempt.scale * attempt.scale);
-      if (bytes <= static_cast<double>(kComparedBytes)) return;
+      if (estimated_bytes(files, attempt.scale) <= static_cast<double>(kComparedBytes)) return;
+    }
+  }
+
+  // The same for the small ones.
+  void choose_film() {
+    if (scenes_.empty() || kept_frames(*scenes_.front().front()).empty()) return;
+    const Frame any = kept_frames(*scenes_.front().front()).front();
+    const int scale = (read_png(folder_ / any.file).size.x + kFilmWidth - 1) / kFilmWidth;
+    for (const Attempt& attempt : {Attempt{6, scale}, {4, scale}, {6, 2 * scale}, {3, 2 * scale}, {2, 3 * scale}}) {
+      film_ = attempt;
+      std::set<std::string> files;
+      for (const Scene& scene : scenes_)
+        for (const Curve* curve : scene)
+          for (const Frame& frame : thinned(kept_frames(*curve), attempt.frames)) files.insert(frame.file);
+      if (estimated_bytes(files, attempt.scale) <= static_cast<double>(kFilmBytes)) return;
     }
   }
 
@@ -185,34 +206,24 @@ class Builder {
 
   Json film(const Scene& scene) {
     Json frames = Json::array();
-    for (const Curve* curve : scene) {
-      for (const Frame& frame : thinned(kept_frames(*curve), kFilmLength)) {
+    for (const Curve* curve : scene)
+      for (const Frame& frame : thinned(kept_frames(*curve), film_.frames)) {
         const FrameState& state = frame.point->state;
-        if (film_bytes_ > kFilmBytes) return frames;
-        const std::string id = add_small(frame.file);
-        film_bytes_ += result_.uris[id].size() * 3 / 4;
-        frames.push_back({{"id", id},
+        frames.push_back({{"id", add(frame.file, film_.scale)},
                           {"mode", curve->mode},
                           {"frame", state.frame},
                           {"points", state.points_drawn},
                           {"ms", curve->timed ? Json(state.milliseconds) : Json()},
                           {"psnr_db", json_of_any(psnr_db(frame.point->mse))}});
       }
-    }
     return frames;
-  }
-
-  std::string add_small(const std::string& file) {
-    if (film_scale_ == 0) film_scale_ = std::max(1, (read_png(folder_ / file).size.x + kFilmWidth - 1) / kFilmWidth);
-    return add(file, film_scale_);
   }
 
   fs::path folder_;
   std::vector<Scene> scenes_;
   const std::map<std::string, std::uint64_t>& points_total_;
   std::size_t frames_ = 1;  // of a curve to compare
-  int film_scale_ = 0;      // not known yet
-  std::uint64_t film_bytes_ = 0;
+  Attempt film_{1, 1};
   ReportPictures result_;
 };
 

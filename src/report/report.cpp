@@ -13,10 +13,6 @@ namespace {
 // Frames of a curve that a chart has room for.
 constexpr std::size_t kMostFrames = 400;
 
-Json json_of(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
-
 // A list for each column; of a long curve so many frames, evenly, that it can be drawn.
 Json columns_of(const Curve& curve) {
   Json columns;

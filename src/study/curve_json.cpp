@@ -3,15 +3,11 @@
 namespace stipple {
 namespace {
 
-Json json_of(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
-
 std::optional<double> optional_of(const Json& json) {
   return json.is_null() ? std::nullopt : std::optional(json.get<double>());
 }
 
-Json json_of(const CurvePoint& point) {
+Json point_json(const CurvePoint& point) {
   const FrameState& state = point.state;
   const FrameRates& rates = point.rates;
   return {{"frame", state.frame},
@@ -72,7 +68,7 @@ CurvePoint point_of(const Json& json) {
 
 Json json_of(const Curve& curve) {
   Json points = Json::array();
-  for (const CurvePoint& point : curve.points) points.push_back(json_of(point));
+  for (const CurvePoint& point : curve.points) points.push_back(point_json(point));
   Json kept = Json::array();
   for (const KeptFrame& frame : curve.kept) kept.push_back({{"frame", frame.frame}, {"file", frame.file}});
   return {{"dataset", curve.dataset}, {"regime", curve.regime}, {"view", curve.view},

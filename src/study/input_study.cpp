@@ -185,7 +185,7 @@ void InputStudy::study_mode(const Route& route, Regime regime, Mode mode, const 
         fmt::format("{}, {}, {}, {}: {}", name_, name_of(regime), route.name, name_of(mode), e.what()));
     return;
   }
-  Json summary = summary_json(curves, route.target_ms);
+  Json summary = summary_json(curves, route.target_ms, dataset_.info.point_count);
   summary["reads"] = reading_order_of(mode);
   findings_.summaries.push_back(summary);
   std::ranges::move(curves, std::back_inserter(findings_.curves));

@@ -12,10 +12,6 @@
 namespace stipple {
 namespace {
 
-Json json_of(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
-
 // Over the repeats: null when any of them did not get there.
 Json reached_json(std::span<const Curve> repeats, const std::function<std::optional<Reached>(const Curve&)>& reach) {
   std::vector<double> times;
@@ -90,9 +86,23 @@ Json quality_json(const std::function<std::optional<double>(const Measure&)>& of
           {"flicker", json_of(of([](Point p) { return p.flicker; }))}};
 }
 
+// Area under the curve of error against points: the mean of the error on the way to `points_total` points. A frame's
+// error counts for the points that it drew, the last one's for what is left.
+double mse_on_the_way(const Curve& curve, std::uint64_t points_total) {
+  double area = 0.0;
+  std::uint64_t drawn = 0;
+  for (const CurvePoint& point : curve.points) {
+    area += point.mse * static_cast<double>(point.state.points_drawn - drawn);
+    drawn = point.state.points_drawn;
+  }
+  if (points_total > drawn) area += curve.points.back().mse * static_cast<double>(points_total - drawn);
+  const std::uint64_t points = std::max(points_total, drawn);
+  return points ? area / static_cast<double>(points) : curve.points.back().mse;
+}
+
 }  // namespace
 
-Json summary_json(std::span<const Curve> repeats, double target_ms) {
+Json summary_json(std::span<const Curve> repeats, double target_ms, std::uint64_t points_total) {
   const Curve& first = repeats.front();
   Json reached;
   for (const double quality : kQualities)
@@ -118,6 +128,7 @@ Json summary_json(std::span<const Curve> repeats, double target_ms) {
       {"target_ms", target ? Json(target_ms) : Json()},
       {"frames_over_target", target ? Json(static_cast<double>(over) / static_cast<double>(times.size())) : Json()}};
   json.update(quality_json([&](const Measure& measure) { return measure(last); }));
+  json["area_db"] = json_of_any(psnr_db(mse_on_the_way(first, points_total)));
   json["converged"] = last.state.converged;
   json["identical_to_brute_force"] = last.identical;
   json["reached"] = reached;

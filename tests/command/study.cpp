@@ -219,6 +219,34 @@ TEST_F(StudyRegimes, ResumesWhereItWasInterrupted) {
   EXPECT_TRUE(contains(other.err, "seed is 5, was 0"));
 }
 
+TEST_F(StudyRegimes, AMethodThatFailsIsReportedAndTheRestGoOn) {
+  ASSERT_EQ(run_stipple(folder_, "build " + city_ + " -o " + path("tree")).code, 0);
+  const Outcome outcome = run_stipple(
+      folder_, "study " + path("tree") +
+                   " --size 64x48 --budget 4k --clock points --modes hierarchical,unstructured -o " + path("out"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(contains(outcome.err, "tree, cold, oblique, hierarchical: "));
+  const Json document = json_file(path("out/study.json"));
+  EXPECT_EQ(document.at("failures").size(), 4u);
+  EXPECT_EQ(document.at("complete"), false);
+  ASSERT_EQ(document.at("summary").size(), 4u);
+  for (const Json& summary : document.at("summary")) EXPECT_EQ(summary.at("mode"), "unstructured");
+  EXPECT_TRUE(contains(text_of(path("out/index.html")), "tree, cold, oblique, hierarchical: "));
+}
+
+TEST_F(StudyRegimes, PicturesCarryWhatItTakesToRepeatThem) {
+  ASSERT_EQ(regimes("out", "--modes hybrid").code, 0);
+  const std::string hash = json_file(path("out/study.json")).at("datasets").at(0).at("points_hash");
+  for (const char* file : {"reference/city/corner.png", "frames/city/jump/corner/hybrid/00001.png"}) {
+    const std::string picture = text_of(path("out/") + file);
+    for (const std::string& part : {hash, std::string("\"eye\""), std::string("\"mode\":")})
+      EXPECT_TRUE(contains(picture, part)) << file;
+  }
+  const std::string moving = text_of(path("out/frames/city/path/walk/hybrid/00001.png"));
+  for (const char* part : {"\"path_frames\":6", "\"time\":2.0", "\"seed\":0", "\"version\":"})
+    EXPECT_TRUE(contains(moving, part)) << part;
+}
+
 TEST_F(StudyRegimes, ASignalEndsItWithWhatIsFinished) {
   // A point a frame takes longer than anybody waits
   const std::string command = std::string(STIPPLE_PROGRAM) + " study " + city_ +

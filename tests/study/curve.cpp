@@ -142,6 +142,16 @@ TEST(Summary, HasNoTimesOfACurveThatWasNotTimed) {
   EXPECT_TRUE(summary.at("reached").at("30_db").at("ms_median").is_null());
 }
 
+TEST(Summary, WeighsTheErrorOnTheWayByThePointsItTook) {
+  Curve curve = curve_of({20, 30, 40});
+  curve.points[2].state.points_drawn = 400;
+  const auto area = [&](std::uint64_t total) {
+    return summary_json({&curve, 1}, 0.0, total).at("area_db").get<double>();
+  };
+  EXPECT_NEAR(area(1000), psnr_db((100 * mse_of(20) + 100 * mse_of(30) + 800 * mse_of(40)) / 1000), 1e-9);
+  EXPECT_NEAR(area(0), psnr_db((100 * mse_of(20) + 100 * mse_of(30) + 200 * mse_of(40)) / 400), 1e-9);
+}
+
 TEST(Summary, AveragesErrorsNotDecibels) {
   Curve curve = curve_of({kInf, 20});
   curve.points[1].parts.carry = 10.0;

@@ -52,6 +52,7 @@ function lineChart(place, title, curves, { x, xTitle, measure, value, log = fals
       .filter((point) => point.y !== null && (!log || point.x > 0)),
     columns: curve.columns,
     showLine: true,
+    clip: 8,
     borderColor: color(curve.mode),
     backgroundColor: color(curve.mode),
     borderWidth: 1.8,
@@ -143,7 +144,9 @@ const names = {
 function drawRates() {
   const place = $('#rates .charts');
   if (!timed) return;
-  for (const [title, runs] of grouped(firstRuns(), routeName)) {
+  // Brute force has nothing left to draw where the camera stops
+  const drawing = firstRuns().filter((curve) => curve.columns.points_drawn.at(-1) > 0);
+  for (const [title, runs] of grouped(drawing, routeName)) {
     const summaries = ofDataset(report.study.summary);
     const of = (curve) => summaries.find((s) => s.mode === curve.mode && s.view === curve.view && s.regime === curve.regime);
     const decibels = runs.flatMap((curve) => [...curve.columns.psnr_db.map(number), number(of(curve).mean.psnr_db)]);
@@ -159,6 +162,7 @@ function drawRates() {
     const means = runs.map((curve) => ({
       ...style(curve),
       named: true,
+      clip: 10,
       data: [{ x: 1e3 / of(curve).frame_ms.p50, y: clamp(of(curve).mean.psnr_db) }].filter(({ x }) => Number.isFinite(x)),
       backgroundColor: color(curve.mode),
       pointRadius: 8,
@@ -200,7 +204,8 @@ const partsMoment = (row) => (row.regime === 'path' ? 'mean over frames' : 'firs
 
 function drawParts() {
   const place = $('#parts .charts');
-  const rows = ofDataset(report.study.summary).filter((row) => visible(row.mode));
+  // From nothing there is nothing to carry, and a chart of one colour says little
+  const rows = ofDataset(report.study.summary).filter((row) => visible(row.mode) && row.regime !== 'cold');
   for (const [title, group] of grouped(rows, (row) => `${routeName(row)}: ${partsMoment(row)}`))
     addChart(place, title, {
       type: 'bar',

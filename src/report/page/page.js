@@ -107,8 +107,11 @@ function showChosenSections() {
   const chosen = location.hash.match(/^#show=([\w,-]+)$/)?.[1].split(',');
   if (!chosen) return;
   for (const section of document.querySelectorAll('main > section')) section.classList.toggle('left-out', !chosen.includes(section.id));
-  for (const part of document.querySelectorAll('header.page, nav.controls, footer'))
-    part.classList.toggle('left-out', !chosen.includes('head'));
+  const head = chosen.includes('head');
+  for (const part of document.querySelectorAll('header.page, footer')) part.classList.toggle('left-out', !head);
+  // The controls are the charts' legend, too
+  const charts = chosen.some((section) => ['curves', 'moving', 'rates'].includes(section));
+  $('nav.controls').classList.toggle('left-out', !head && !charts);
 }
 
 applyTheme('auto');

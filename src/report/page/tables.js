@@ -31,7 +31,7 @@ function reachedCell(row, key, group) {
 
 function drawSummary() {
   const rows = ofDataset(report.study.summary).filter((row) => row.regime !== 'path' && visible(row.mode));
-  const head = ['', ...kQualities.map(([, title]) => title), 'last frame', 'SSIM', 'FLIP', 'frames'];
+  const head = ['', ...kQualities.map(([, title]) => title), 'on the way', 'last frame', 'SSIM', 'FLIP', 'frames'];
   if (timed) head.push('P50 / P95 frame');
   const body = [];
   for (const [title, group] of grouped(rows, routeName)) {
@@ -40,6 +40,7 @@ function drawSummary() {
       const tr = make('tr', { 'data-mode': row.mode, 'data-view': row.view, 'data-regime': row.regime });
       tr.append(make('td', { title: row.reads }, methodCell(row.mode)));
       tr.append(...kQualities.map(([key]) => reachedCell(row, key, group)));
+      tr.append(make('td', { 'data-key': 'area_db' }, format.db(row.area_db)));
       tr.append(make('td', { 'data-key': 'psnr_db' }, format.db(row.psnr_db)), make('td', {}, format.plain(row.ssim, 4)));
       tr.append(make('td', {}, format.plain(row.flip, 4)), make('td', {}, String(row.frames)));
       if (timed) tr.append(make('td', {}, `${format.ms(row.frame_ms.p50)} / ${format.ms(row.frame_ms.p95)}`));
