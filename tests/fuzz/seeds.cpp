@@ -96,6 +96,15 @@ void add_las(Seeds& seeds) {
   }
 }
 
+// 20 points at the origin, packed: a zero, and 239 copies of what stands one byte before.
+void add_packed_pcd(Seeds& seeds) {
+  const std::string packed{"\0\0\xE0\xE6\0", 5};
+  seeds.add("pcd",
+            "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 20\nHEIGHT 1\nPOINTS 20\nDATA "
+            "binary_compressed\n" +
+                std::string{"\5\0\0\0\xF0\0\0\0", 8} + packed);
+}
+
 void add_text(Seeds& seeds) {
   for (const char* text :
        {"v 1 2 3\nv 4 5 6 0 0.5 1\nvn 0 0 1\nf 1 2 3\n", "# made\nmtllib a.mtl\no cube\nv 1e3 -2.5 .25 0.5 0 0.5 1\n",
@@ -200,6 +209,7 @@ int main(int count, char** arguments) {
   Seeds seeds(arguments[1]);
   add_catalogue(seeds);
   add_las(seeds);
+  add_packed_pcd(seeds);
   add_text(seeds);
   add_potree2(seeds);
   add_potree1(seeds);

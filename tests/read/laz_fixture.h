@@ -9,7 +9,7 @@
 
 namespace stipple::test {
 
-// Small LAZ files that others wrote, and the LAS files they were made from. Nothing here writes LAZ.
+// Small LAZ files that others wrote, and the LAS files they were made from.
 inline std::filesystem::path laz_file(const std::string& name) {
   for (const char* folder : {"visgl+loaders.gl/modules/las/test/data", "hobuinc+laz-perf/raw-sets",
                              "laz-rs+laz-rs/data", "gadomski+las-rs/data"}) {

@@ -57,17 +57,18 @@ TEST_F(Pcd, HeaderLinesMayBeMissing) {
 
 TEST_F(Pcd, EveryTypeIsReadFromEveryEncoding) {
   const struct {
-    const char* letter;
-    int size;
+    std::string letter;
+    std::string size;
     ScalarType type;
-  } types[] = {{"U", 1, ScalarType::u8},  {"I", 1, ScalarType::i8},  {"U", 2, ScalarType::u16},
-               {"I", 2, ScalarType::i16}, {"U", 4, ScalarType::u32}, {"I", 4, ScalarType::i32},
-               {"U", 8, ScalarType::u64}, {"I", 8, ScalarType::i64}, {"F", 4, ScalarType::f32},
-               {"F", 8, ScalarType::f64}};
+  } types[] = {{"U", "1", ScalarType::u8},  {"I", "1", ScalarType::i8},  {"U", "2", ScalarType::u16},
+               {"I", "2", ScalarType::i16}, {"U", "4", ScalarType::u32}, {"I", "4", ScalarType::i32},
+               {"U", "8", ScalarType::u64}, {"I", "8", ScalarType::i64}, {"F", "4", ScalarType::f32},
+               {"F", "8", ScalarType::f64}};
   for (const auto& [letter, size, type] : types) {
+    // clang 14 lets no lambda capture names of a structured binding
+    const std::string letters = letter + " F F " + letter, sizes = size + " 8 4 " + size;
     const auto with = [&](const std::string& data) {
-      return header("value x y z", std::to_string(size) + " 8 4 " + std::to_string(size),
-                    std::string(letter) + " F F " + letter, "1 1 1 1", 2, data);
+      return header("value x y z", sizes, letters, "1 1 1 1", 2, data);
     };
     Binary rows, columns;
     for (const double v : {5.0, 100.0}) rows.put_as(type, v).put(0.125).put(-2.5f).put_as(type, v + 1);

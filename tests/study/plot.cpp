@@ -1,5 +1,7 @@
 // GCC 12 takes a moved std::regex for uninitialised when it also instruments it for a sanitizer.
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 #include "src/study/plot.h"
 

@@ -37,10 +37,11 @@ LzfResult decode_lzf(std::span<const std::byte> in, std::span<std::byte> out) {
     }
     // Byte by byte where the copy reaches into itself: it repeats what it has just written
     std::byte* const to = out.data() + at.written;
+    const std::byte* const from = to - distance;
     if (distance >= length)
-      std::memcpy(to, to - distance, length);
+      std::memcpy(to, from, length);
     else
-      for (std::size_t i = 0; i < length; ++i) to[i] = to[i - distance];
+      for (std::size_t i = 0; i < length; ++i) to[i] = from[i];
     at.written += length;
   }
   at.good = at.written == out.size();

@@ -95,6 +95,7 @@ void decode_records(std::span<const std::byte> records, std::size_t points, cons
                     std::span<const std::size_t> attributes, PointBatch& batch) {
   const std::size_t stride = record_bytes(schema);
   shape(batch, points, schema, attributes);
+  if (points == 0) return;  // no records may have no address
   gather(records.data(), stride, points, sizeof(glm::ivec3), reinterpret_cast<std::byte*>(batch.positions.data()));
   for (std::size_t c = 0; c < attributes.size(); ++c) {
     const std::size_t offset = record_bytes({schema.begin(), schema.begin() + attributes[c]});
