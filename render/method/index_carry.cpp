@@ -9,12 +9,12 @@
 namespace stipple {
 namespace {
 
-Program compile(std::vector<ShaderDefine> defines) {
+Program compile_pass(std::vector<ShaderDefine> defines) {
   defines.push_back({"CHUNK_POINTS", std::to_string(GpuCloud::kChunkPoints) + "u"});
   return Program::compute("prepare_indices.glsl", defines);
 }
 
-GpuBuffer upload(std::span<const std::uint32_t> slot_of) {
+GpuBuffer upload_slots(std::span<const std::uint32_t> slot_of) {
   GLint64 limit = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   if (slot_of.size_bytes() > static_cast<std::size_t>(limit))
@@ -30,11 +30,11 @@ GpuBuffer upload(std::span<const std::uint32_t> slot_of) {
 
 IndexCarry::IndexCarry(const GpuCloud& cloud, std::span<const std::uint32_t> slot_of)
     : cloud_(cloud),
-      slot_of_(upload(slot_of)),
+      slot_of_(upload_slots(slot_of)),
       commands_(cloud.chunks().size() * sizeof(CarriedCommand)),
-      count_(compile({{"COUNT"}})),
-      begin_(compile({{"BEGIN"}})),
-      write_(compile({})) {}
+      count_(compile_pass({{"COUNT"}})),
+      begin_(compile_pass({{"BEGIN"}})),
+      write_(compile_pass({})) {}
 
 void IndexCarry::prepare(const FeedbackTarget& frame) {
   const auto pixels = static_cast<std::size_t>(frame.size().x) * static_cast<std::size_t>(frame.size().y);

@@ -17,7 +17,7 @@ std::uint32_t place_of(std::uint32_t slot) {
 
 // So many points that a cluster never has more than a slot: cut_clusters() makes as many clusters as this goes into all
 // of them, rounded, all of the same size but for one point.
-std::uint64_t points_of_a_cluster(std::uint64_t points) {
+std::uint64_t even_cluster_points(std::uint64_t points) {
   return points / ((points + kPoints - 1) / kPoints);
 }
 
@@ -25,7 +25,7 @@ std::uint64_t points_of_a_cluster(std::uint64_t points) {
 
 std::uint32_t SlottedPoints::slots_for(std::uint64_t points) {
   if (points == 0) return 0;
-  const std::uint64_t each = points_of_a_cluster(points);
+  const std::uint64_t each = even_cluster_points(points);
   return static_cast<std::uint32_t>((points + each / 2) / each);
 }
 
@@ -34,7 +34,7 @@ SlottedPoints slotted(const Grid& grid, std::span<const PackedPoint> points, std
   for (const PackedPoint& point : points) bounds.extend(point.position);
   SlottedPoints result;
   if (points.empty()) return result;
-  ClusterCut cut = cut_clusters(grid, bounds, points, points_of_a_cluster(points.size()), root_edge);
+  ClusterCut cut = cut_clusters(grid, bounds, points, even_cluster_points(points.size()), root_edge);
   result.points.resize(cut.clusters.size() * kPoints);
   result.ids.resize(result.points.size());
   result.log_pixels = std::move(cut.log_pixels);

@@ -1,24 +1,15 @@
 #include "render/store/part_reader.h"
 
-#include <chrono>
 #include <utility>
 
+#include "render/store/disk_reads.h"
 #include "render/store/tree_ids.h"
 
 namespace stipple {
-namespace {
-
-// Reads wait for the disk, not for a core.
-constexpr std::size_t kThreads = 4;
-// How long collect() waits: a picture that stands still for a frame is better than a busy one.
-constexpr std::chrono::milliseconds kPatience{20};
-
-}  // namespace
-
 PartReader::PartReader(std::shared_ptr<const TreeStore> store, ColorMap colors, double root_edge)
     : store_(std::move(store)), colors_(std::move(colors)), root_edge_(root_edge) {
   if (const auto index = find_attribute(store_->info().source.schema, colors_.attribute)) attributes_.push_back(*index);
-  for (std::size_t i = 0; i < kThreads; ++i) threads_.emplace_back([this] { work(); });
+  for (std::size_t i = 0; i < kReadThreads; ++i) threads_.emplace_back([this] { work(); });
 }
 
 PartReader::~PartReader() {
@@ -48,7 +39,7 @@ std::vector<PartReader::Request> PartReader::cancel() {
 std::vector<PartReader::Part> PartReader::collect(bool patient) {
   std::vector<Part> parts;
   std::unique_lock lock(mutex_);
-  if (patient && points_under_way_ > 0) arrived_.wait_for(lock, kPatience, [this] { return !parts_.empty(); });
+  if (patient && points_under_way_ > 0) arrived_.wait_for(lock, kReadPatience, [this] { return !parts_.empty(); });
   parts.swap(parts_);
   for (const Part& part : parts) points_under_way_ -= part.request.count;
   return parts;

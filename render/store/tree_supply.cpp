@@ -1,24 +1,20 @@
 #include "render/store/tree_supply.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "octree/core/error.h"
 #include "octree/select/density.h"
 #include "render/frame/view_frustum.h"
+#include "render/store/disk_reads.h"
 #include "render/store/tree_ids.h"
 
 namespace stipple {
 namespace {
 
-// Reads wait for the disk, not for a core.
-constexpr std::size_t kThreads = 4;
 // Points of one request: small enough that several threads share a node, large enough for the disk.
 constexpr std::uint32_t kLargestRequest = 65536;
-// How long collect() waits: a picture that stands still for a frame is better than a busy one.
-constexpr std::chrono::milliseconds kPatience{20};
 
 std::int32_t to_int32(double value) {
   return static_cast<std::int32_t>(std::clamp(value, -2147483648.0, 2147483647.0));
@@ -36,7 +32,7 @@ GridBox grid_box_around(const Grid& grid, const WorldBox& box) {
 TreeSupply::TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before)
     : store_(std::move(store)), colors_(std::move(colors)), bytes_before_(bytes_before), tree_(store_) {
   if (const auto index = find_attribute(store_->info().source.schema, colors_.attribute)) attributes_.push_back(*index);
-  for (std::size_t i = 0; i < kThreads; ++i)
+  for (std::size_t i = 0; i < kReadThreads; ++i)
     threads_.emplace_back([this, looks_first = i % 2 == 0] { work(looks_first); });
 }
 
@@ -170,7 +166,7 @@ std::vector<PointPiece> TreeSupply::collect(std::uint32_t most) {
   given_.clear();
   std::vector<PointPiece> pieces;
   std::unique_lock lock(mutex_);
-  arrived_.wait_for(lock, kPatience, [this] {
+  arrived_.wait_for(lock, kReadPatience, [this] {
     return !arrivals_.empty() || !found_.empty() || failure_ || (under_way_ == 0 && looking_up_ == 0);
   });
   if (failure_) std::rethrow_exception(failure_);

@@ -228,7 +228,7 @@ std::string InputStudy::provenance(const Route& route, const Curve& curve) const
 }
 
 Curve InputStudy::draw(const Route& route, Regime regime, Mode mode, int repeat, const std::vector<Truth>& truths) {
-  if (settings_.clock == StudyClock::points && dataset_.tree && mode == Mode::hierarchical)
+  if (settings_.clock == StudyClock::points && dataset_.tree && !needs_of(mode).points)
     throw Error(
         "what it draws of an octree on disk in a frame depends on how fast the disk is, so that it cannot be counted "
         "by points alone; give the points as a file, or leave out --clock points");

@@ -28,7 +28,9 @@ const char* color_of(const std::string& mode) {
   if (mode == "hierarchical") return "#0072B2";
   if (mode == "unstructured") return "#D55E00";
   if (mode == "hybrid") return "#009E73";
-  return "#CC79A7";
+  if (mode == "lod") return "#CC79A7";
+  if (mode == "subsample") return "#B58900";
+  return "#56B4E9";
 }
 
 struct Axis {
