@@ -39,6 +39,9 @@ class ProgressiveRenderer {
   // view costs nothing. Commands are issued, not awaited.
   FrameReport draw(const View& view, std::uint32_t budget);
 
+  // The last frame, on the GPU; null before the first. Valid until the next draw().
+  const FeedbackTarget* frame() const { return targets_[current_] ? &*targets_[current_] : nullptr; }
+
   // The last frame. Both wait for the GPU and belong outside of timed parts.
   FrameData read();
   std::uint64_t covered_pixels();

@@ -1,0 +1,95 @@
+#include "src/command/view.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "octree/core/error.h"
+#include "src/camera/camera_file.h"
+#include "src/cli/cli.h"
+#include "src/cli/draw_options.h"
+#include "src/run/free_memory.h"
+#include "src/viewer/viewer.h"
+
+namespace stipple {
+namespace {
+
+// Of the memory that is free: the rest is for the driver and the pictures.
+constexpr double kShareOfMemory = 0.8;
+constexpr const char* kFramesPerSecond = "30";
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string mode;
+  std::string camera;
+  std::string screenshot;
+  bool exit_after_screenshot = false;
+  DrawOptions draw;
+};
+
+ViewerOptions viewer_options(const Options& options) {
+  ViewerOptions viewer;
+  viewer.inputs = options.inputs;
+  viewer.color = options.draw.color;
+  if (!options.mode.empty()) {
+    viewer.mode = mode_named(options.mode);
+    if (!viewer.mode)
+      throw UsageError(
+          fmt::format("--mode {}: expected brute-force, hierarchical, unstructured or hybrid", options.mode));
+  }
+  viewer.method = method_options_of(options.draw);
+  if (options.draw.memory.empty())
+    viewer.method.limits.main = static_cast<std::uint64_t>(kShareOfMemory * static_cast<double>(free_memory()));
+  viewer.rasterizer = rasterizer_of(options.draw);
+  viewer.policy = budget_of(options.draw);
+  viewer.point_size = parse_positive("--point-size", options.draw.point_size);
+  viewer.background = parse_color("--background", options.draw.background);
+  if (!options.camera.empty()) viewer.camera = read_cameras(options.camera).front().camera;
+  viewer.screenshot = options.screenshot;
+  viewer.exit_after_screenshot = options.exit_after_screenshot;
+  if (options.exit_after_screenshot && options.inputs.empty())
+    throw UsageError("--exit-after-screenshot: INPUT is missing, there is nothing to picture");
+  return viewer;
+}
+
+void run(const Options& options) {
+  const ViewerOptions viewer_settings = viewer_options(options);
+  const glm::ivec2 size = parse_size("--size", options.draw.size);
+  for (const std::string& input : options.inputs)
+    if (!std::filesystem::exists(input)) throw Error(fmt::format("{}: there is no such file or folder", input));
+  Window window({.size = size});
+  Viewer(window, viewer_settings).run();
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("view", "Look at a point cloud in a window.");
+  command->add_option("INPUT", options->inputs,
+                      "Point clouds to open: files, folders of files, octrees; together one cloud. Without any, drop "
+                      "them on the window.");
+  command->add_option("--mode", options->mode,
+                      "Method to begin with: unstructured, hierarchical, hybrid or brute-force. Default: hierarchical "
+                      "for an octree on disk, of which it reads what the view asks for; hybrid for all else.");
+  add_draw_options(*command, options->draw);
+  CLI::Option* budget = command->get_option("--budget");
+  command->add_option("--camera", options->camera,
+                      R"(JSON file with "eye" and "target" to begin with; of several views the first.)");
+  CLI::Option* screenshot =
+      command->add_option("--screenshot", options->screenshot,
+                          "PNG file to write when nothing is left to draw: the picture without the panels.");
+  command->add_flag("--exit-after-screenshot", options->exit_after_screenshot, "End then.")->needs(screenshot);
+  command->footer(
+      fmt::format("The window shows points while they are read. Press ? in it for the keys. Points a frame are steered "
+                  "to {} frames a second unless --fps or --budget say otherwise.\n\n"
+                  "Example:\n  stipple view scan.laz",
+                  kFramesPerSecond));
+  command->callback([options, budget] {
+    if (options->draw.fps.empty() && budget->count() == 0) options->draw.fps = kFramesPerSecond;
+    run(*options);
+  });
+}
+
+}  // namespace stipple
