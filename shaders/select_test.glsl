@@ -124,7 +124,7 @@ void main() {
   }
   Outline outline = outline_of(box);
   float open = open_share(outline);
-  if (outline.outside) state.status = kOutside;
+  if (outline.outside || box.count == 0u) state.status = kOutside;  // rows without points are free
   else if (open == 0.0) state.status = kOccluded;
   states[i] = state;
   prospects[i] = Prospect(estimated_pixels(i, outline.nearest), max(outline.nearest, view.near), open);

@@ -22,10 +22,13 @@ struct Totals {
 struct ChunkBegin {
   std::uint32_t point, stretch;
 };
+constexpr std::uint32_t kOpen = 0;
+constexpr std::uint32_t kOutside = 1;
 constexpr std::size_t kUrgencies = 1024;
-constexpr std::size_t kSummaryHead = sizeof(Totals) + ClusterCloud::kMostChunks * sizeof(ChunkBegin);
+constexpr std::size_t kSummaryHead = sizeof(Totals) + ClusterTable::kMostChunks * sizeof(ChunkBegin);
 
 constexpr std::size_t kProspectBytes = 3 * sizeof(float);
+constexpr std::size_t kMostProbed = 4096;
 
 // Clusters that one invocation of the scan works off.
 constexpr std::size_t kBlock = 32;
@@ -35,16 +38,16 @@ std::size_t blocks_of(std::size_t clusters) {
 }
 
 Program compile(const char* shader, std::vector<ShaderDefine> defines = {}) {
-  defines.push_back({"MOST_CHUNKS", std::to_string(ClusterCloud::kMostChunks)});
-  defines.push_back({"LEVELS", std::to_string(ClusterCloud::kLevels) + "u"});
+  defines.push_back({"MOST_CHUNKS", std::to_string(ClusterTable::kMostChunks)});
+  defines.push_back({"LEVELS", std::to_string(ClusterTable::kLevels) + "u"});
   defines.push_back({"BLOCK", std::to_string(kBlock) + "u"});
   return Program::compute(shader, defines);
 }
 
 }  // namespace
 
-ClusterSelector::ClusterSelector(const ClusterCloud& cloud, const Options& options)
-    : cloud_(cloud),
+ClusterSelector::ClusterSelector(const ClusterTable& table, const Options& options)
+    : table_(table),
       options_(options),
       test_from_image_(compile("select_test.glsl")),
       test_from_attachment_(compile("select_test.glsl", {{"FROM_ATTACHMENT"}})),
@@ -55,13 +58,13 @@ ClusterSelector::ClusterSelector(const ClusterCloud& cloud, const Options& optio
       take_(compile("select_take.glsl")),
       expand_(compile("expand_stretch.glsl")),
       yield_(compile("measure_yield.glsl")),
-      states_(cloud.clusters() * sizeof(ClusterState)),
-      open_clusters_(cloud.clusters() * sizeof(std::uint32_t)),
-      wishes_(cloud.clusters() * sizeof(std::uint32_t)),
+      states_(table.capacity * sizeof(ClusterState)),
+      open_clusters_(table.capacity * sizeof(std::uint32_t)),
+      wishes_(table.capacity * sizeof(std::uint32_t)),
       summary_(kSummaryHead + kUrgencies * sizeof(std::uint32_t)),
-      prospects_(cloud.clusters() * kProspectBytes),
-      block_sums_(blocks_of(cloud.clusters()) * sizeof(glm::uvec4)),
-      stretches_(cloud.clusters() * sizeof(Stretch)),
+      prospects_(table.capacity * kProspectBytes),
+      block_sums_(blocks_of(table.capacity) * sizeof(glm::uvec4)),
+      stretches_(table.capacity * sizeof(Stretch)),
       places_(options.largest_budget * sizeof(std::uint32_t)) {
   forget();
 }
@@ -73,14 +76,20 @@ std::uint64_t ClusterSelector::bytes_for(std::uint64_t clusters, std::uint64_t b
 
 void ClusterSelector::forget() {
   states_.fill(0);
-  drawn_ = nullptr;
+  start_view();
 }
 
-ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t budget, bool new_view) {
+void ClusterSelector::start_view() {
+  drawn_ = nullptr;
+  selected_ = false;
+}
+
+ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t budget) {
+  const bool new_view = !selected_;
+  selected_ = true;
   taken_.clear();
-  if (cloud_.clusters() == 0) return {};
-  if (new_view) drawn_ = nullptr;
-  test(new_view);
+  if (table_.size == 0) return {};
+  test({table_.boxes, table_.log_pixels, states_, prospects_, new_view ? table_.size : open_, new_view});
   score(view);
   rank(std::min(budget, options_.largest_budget));
   Result result = read_back();
@@ -96,24 +105,72 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
   return result;
 }
 
-void ClusterSelector::test(bool new_view) {
+void ClusterSelector::test(const Tested& tested) {
   const bool attachment = drawn_ && drawn_->depth_storage() == DepthStorage::attachment;
   (attachment ? test_from_attachment_ : test_from_image_).use();
   if (drawn_) drawn_->depth().bind(0);
-  cloud_.boxes().bind_storage(0);
-  states_.bind_storage(1);
-  cloud_.log_pixels().bind_storage(2);
+  tested.boxes.bind_storage(0);
+  tested.states.bind_storage(1);
+  tested.log_pixels.bind_storage(2);
   pyramid_.values().bind_storage(3);
-  prospects_.bind_storage(7);
   open_clusters_.bind_storage(4);
-  const std::uint32_t tested = new_view ? cloud_.clusters() : open_;
-  glUniform1ui(0, tested);
-  glUniform1i(1, new_view ? 1 : 0);
+  tested.prospects.bind_storage(7);
+  glUniform1ui(0, tested.count);
+  glUniform1i(1, tested.all ? 1 : 0);
   glUniform1i(3, drawn_ && options_.skip_occluded ? static_cast<GLint>(pyramid_.levels()) : 0);
-  glUniform1f(4, static_cast<float>(cloud_.root_edge()));
+  glUniform1f(4, static_cast<float>(table_.root_edge));
   glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid_.level_table()[0].first);
-  dispatch_items(tested, 64);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  dispatch_items(tested.count, 64);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void ClusterSelector::add(std::span<const ClusterRun> runs) {
+  std::vector<ClusterState> fresh;
+  std::vector<std::uint32_t> clusters;
+  for (const ClusterRun& run : runs) {
+    fresh.assign(run.count, {0, 0, kOpen, 1.0f});
+    states_.write(run.first * sizeof(ClusterState), std::span<const ClusterState>(fresh));
+    for (std::uint32_t i = 0; i < run.count; ++i) clusters.push_back(run.first + i);
+  }
+  if (!selected_) return;  // the first select() of a view tests all
+  open_clusters_.write(open_ * sizeof(std::uint32_t), std::span<const std::uint32_t>(clusters));
+  open_ += static_cast<std::uint32_t>(clusters.size());
+}
+
+void ClusterSelector::remove(std::span<const ClusterRun> runs) {
+  for (const ClusterRun& run : runs) {
+    const std::vector<ClusterState> none(run.count, {0, 0, kOutside, 0.0f});
+    states_.write(run.first * sizeof(ClusterState), std::span<const ClusterState>(none));
+  }
+}
+
+std::vector<std::uint32_t> ClusterSelector::open_clusters() const {
+  std::vector<std::uint32_t> clusters(selected_ ? open_ : 0);
+  if (!clusters.empty()) open_clusters_.read(0, clusters.data(), clusters.size() * sizeof(std::uint32_t));
+  return clusters;
+}
+
+std::vector<bool> ClusterSelector::hidden(std::span<const GridBox> boxes) {
+  if (!probe_) {
+    probe_.emplace(Probe{GpuBuffer(kMostProbed * sizeof(ClusterTable::Row)),
+                         GpuBuffer(kMostProbed * ClusterTable::kLevels * sizeof(float)),
+                         GpuBuffer(kMostProbed * sizeof(ClusterState)), GpuBuffer(kMostProbed * kProspectBytes)});
+    probe_->log_pixels.fill(0);
+  }
+  std::vector<bool> result;
+  for (; !boxes.empty(); boxes = boxes.subspan(std::min(boxes.size(), kMostProbed))) {
+    const auto some = boxes.first(std::min(boxes.size(), kMostProbed));
+    std::vector<ClusterTable::Row> rows;
+    for (const GridBox& box : some) rows.push_back({box.min, 0, box.max, 1});
+    probe_->boxes.write(0, std::span<const ClusterTable::Row>(rows));
+    probe_->states.fill(0);
+    test({probe_->boxes, probe_->log_pixels, probe_->states, probe_->prospects, static_cast<std::uint32_t>(some.size()),
+          true});
+    std::vector<ClusterState> states(some.size());
+    probe_->states.read(0, states.data(), states.size() * sizeof(ClusterState));
+    for (const ClusterState& state : states) result.push_back(state.status != kOpen);
+  }
+  return result;
 }
 
 void ClusterSelector::score(const View& view) {
@@ -121,10 +178,10 @@ void ClusterSelector::score(const View& view) {
   wishes_.bind_storage(4);
   summary_.bind_storage(5);
   score_.use();
-  glUniform1ui(0, cloud_.clusters());
+  glUniform1ui(0, table_.size);
   glUniform1i(1, options_.by_yield ? 1 : 0);
   glUniform1f(2, static_cast<float>(view.near));
-  dispatch_items(cloud_.clusters(), 64);
+  dispatch_items(table_.size, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -137,25 +194,25 @@ void ClusterSelector::rank(std::uint32_t budget) {
   glDispatchCompute(1, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   sums_.use();
-  glUniform1ui(0, cloud_.clusters());
-  dispatch_items(blocks_of(cloud_.clusters()), 64);
+  glUniform1ui(0, table_.size);
+  dispatch_items(blocks_of(table_.size), 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   scan_.use();
-  glUniform1ui(0, static_cast<GLuint>(blocks_of(cloud_.clusters())));
+  glUniform1ui(0, static_cast<GLuint>(blocks_of(table_.size)));
   glDispatchCompute(1, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   take_.use();
-  glUniform1ui(0, cloud_.clusters());
-  dispatch_items(blocks_of(cloud_.clusters()), 64);
+  glUniform1ui(0, table_.size);
+  dispatch_items(blocks_of(table_.size), 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 ClusterSelector::Result ClusterSelector::read_back() {
   struct {
     Totals totals;
-    std::array<ChunkBegin, ClusterCloud::kMostChunks + 1> begins;
+    std::array<ChunkBegin, ClusterTable::kMostChunks + 1> begins;
   } head;
-  const std::size_t chunks = cloud_.chunks().size();
+  const std::size_t chunks = table_.chunks.size();
   summary_.read(0, &head, sizeof(Totals) + chunks * sizeof(ChunkBegin));
   head.begins[chunks] = {head.totals.points, head.totals.stretches};
   Result result{{}, head.totals.points, head.totals.open, head.totals.visible, head.totals.occluded};
@@ -176,8 +233,8 @@ void ClusterSelector::learn(const FeedbackTarget& frame) {
     stretches_.bind_storage(7);
     for (std::size_t c = 0; c < taken_.size(); ++c) {
       if (taken_[c].stretches == 0) continue;
-      cloud_.chunks()[c].points.bind_storage(0);
-      cloud_.chunks()[c].ids.bind_storage(1);
+      table_.chunks[c].points.bind_storage(0);
+      table_.chunks[c].ids.bind_storage(1);
       glUniform1ui(0, taken_[c].first_stretch);
       glUniform1ui(1, taken_[c].first_stretch + taken_[c].stretches);
       dispatch_items(taken_[c].stretches, 64);
@@ -185,7 +242,7 @@ void ClusterSelector::learn(const FeedbackTarget& frame) {
   }
   if (options_.skip_occluded) pyramid_.build(frame);
   drawn_ = &frame;
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 }  // namespace stipple

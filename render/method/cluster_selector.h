@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "render/frame/camera.h"
 #include "render/frame/depth_pyramid.h"
-#include "render/store/cluster_cloud.h"
+#include "render/store/cluster_table.h"
 
 namespace stipple {
 
@@ -39,14 +41,28 @@ class ClusterSelector {
     std::uint32_t occluded = 0;  // of them
   };
 
-  // The cloud must outlive the selector.
-  ClusterSelector(const ClusterCloud& cloud, const Options& options);
+  // The table must outlive the selector, and may grow to its capacity meanwhile.
+  ClusterSelector(const ClusterTable& table, const Options& options);
 
   // No point was drawn ever.
   void forget();
-  // At most `budget` points. The block of `view` is bound. `new_view`: every point is to be drawn again, though
-  // clusters go on with the points that come next.
-  Result select(const View& view, std::uint32_t budget, bool new_view);
+  // Every point is to be drawn again, though clusters go on with the points that come next.
+  void start_view();
+  // At most `budget` points. The block of `view` is bound.
+  Result select(const View& view, std::uint32_t budget);
+  // The rows of these clusters are new: none of their points was drawn. They take part in the next select().
+  void add(std::span<const ClusterRun> runs);
+  // Those have no points any more, and are not open.
+  void remove(std::span<const ClusterRun> runs);
+  // How many clusters have points left for this view, those of add() included; unknown before its first select().
+  std::optional<std::uint32_t> open() const { return selected_ ? std::optional(open_) : std::nullopt; }
+  // Which they are; empty while unknown. Waits for the GPU.
+  std::vector<std::uint32_t> open_clusters() const;
+  // Which of these boxes are certainly hidden behind what is drawn in this view, or outside of it. Waits for the GPU.
+  std::vector<bool> hidden(std::span<const GridBox> boxes);
+  // Whether hidden() can tell: something was drawn in this view.
+  bool sees_depth() const { return drawn_ && options_.skip_occluded; }
+
   // What select() chose is drawn, in this frame and the view whose block is bound: sees what came of it. The frame
   // must stay as it is until the next select() or forget().
   void learn(const FeedbackTarget& frame);
@@ -57,16 +73,31 @@ class ClusterSelector {
   static std::uint64_t bytes_for(std::uint64_t clusters, std::uint64_t budget);
 
  private:
-  void test(bool new_view);
+  // The tables that a test reads and writes.
+  struct Tested {
+    const GpuBuffer& boxes;
+    const GpuBuffer& log_pixels;
+    const GpuBuffer& states;
+    const GpuBuffer& prospects;
+    std::uint32_t count;
+    bool all;  // rows [0, count), as of a new view; else the first `count` of the open clusters
+  };
+  // Of up to kMostProbed boxes that are no clusters.
+  struct Probe {
+    GpuBuffer boxes, log_pixels, states, prospects;
+  };
+
+  void test(const Tested& tested);
   void score(const View& view);
   void rank(std::uint32_t budget);
   Result read_back();
 
-  const ClusterCloud& cloud_;
+  const ClusterTable& table_;
   Options options_;
   DepthPyramid pyramid_;
   const FeedbackTarget* drawn_ = nullptr;  // in this view; null: nothing yet
-  std::uint32_t open_ = 0;                 // clusters open after the last select()
+  std::uint32_t open_ = 0;                 // clusters open after the last select(), and those added since
+  bool selected_ = false;                  // in this view
   Program test_from_image_;
   Program test_from_attachment_;
   Program score_;
@@ -84,6 +115,7 @@ class ClusterSelector {
   GpuBuffer block_sums_;
   GpuBuffer stretches_;
   GpuBuffer places_;
+  std::optional<Probe> probe_;
   std::vector<Taken> taken_;
 };
 

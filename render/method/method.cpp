@@ -9,7 +9,9 @@
 #include "render/method/brute_force.h"
 #include "render/method/hierarchical.h"
 #include "render/method/hybrid.h"
+#include "render/method/tree_clusters.h"
 #include "render/method/unstructured.h"
+#include "render/store/cluster_cloud.h"
 #include "render/store/memory_supply.h"
 #include "render/store/tree_supply.h"
 
@@ -27,6 +29,10 @@ void check_room(Mode mode, std::size_t points, std::uint64_t bytes, const Memory
                   name_of(mode), points, bytes, limits.gpu));
 }
 
+ClusterSelector::Options selector_options(const MethodOptions& options, std::uint32_t budget) {
+  return {.largest_budget = budget, .skip_occluded = options.skip_occluded, .by_yield = options.by_yield};
+}
+
 std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions& options) {
   const std::uint64_t sorting = points.size() * kBytesPerPointOfOctree;
   if (sorting > options.limits.main)
@@ -35,12 +41,37 @@ std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions&
                     "--memory, or draw in mode hierarchical.",
                     sorting, points.size(), options.limits.main));
   const auto budget = static_cast<std::uint32_t>(std::clamp<std::size_t>(points.size(), 1, options.largest_budget));
-  const std::uint64_t clusters = ClusterCloud::clusters_for(points.size());
   check_room(Mode::hybrid, points.size(),
-             ClusterCloud::bytes_for(points.size()) + ClusterSelector::bytes_for(clusters, budget), options.limits);
+             cluster_bytes_for(points.size()) + ClusterSelector::bytes_for(clusters_for(points.size()), budget),
+             options.limits);
+  return std::make_unique<Hybrid>(std::make_unique<WholeCloud>(upload_clusters(points)),
+                                  selector_options(options, budget));
+}
+
+// GPU memory for the pool of a tree on disk, where no limit is given: 50 million points.
+constexpr std::uint64_t kPoolBytes = std::uint64_t{1} << 30;
+
+std::unique_ptr<Method> make_hybrid(const Dataset& dataset, const MethodOptions& options) {
+  const std::uint64_t points = dataset.tree->info().states_points ? std::max<std::uint64_t>(dataset.info.point_count, 1)
+                                                                  : std::uint64_t{1} << 40;
+  const auto budget = static_cast<std::uint32_t>(std::min<std::uint64_t>(points, options.largest_budget));
+  const std::uint64_t slot_bytes = ClusterPool::kSlotBytes + ClusterSelector::bytes_for(1, 0);
+  const std::uint64_t gpu = options.limits.gpu == MemoryLimits::kNone ? kPoolBytes : options.limits.gpu;
+  const std::uint64_t for_slots = gpu - std::min(gpu, ClusterSelector::bytes_for(0, budget));
+  // Parts fill their last slot in part only
+  const std::uint64_t useful = points / SlottedPoints::kPoints * 3 / 2 + 1024;
+  const std::uint64_t slots =
+      std::min<std::uint64_t>({for_slots / slot_bytes, useful, std::uint64_t{ClusterTable::kMostClusters}});
+  if (slots == 0)
+    throw Error(
+        fmt::format("mode hybrid takes {} bytes of GPU memory at least, and {} are allowed. Allow more with "
+                    "--gpu-memory.",
+                    gpu - for_slots + slot_bytes, gpu));
   return std::make_unique<Hybrid>(
-      points, ClusterSelector::Options{
-                  .largest_budget = budget, .skip_occluded = options.skip_occluded, .by_yield = options.by_yield});
+      std::make_unique<TreeClusters>(dataset.tree, dataset.colors, dataset.bytes_to_load,
+                                     TreeClusters::Room{.slots = static_cast<std::uint32_t>(slots),
+                                                        .points_ahead = options.limits.main / kBytesPerStreamedPoint}),
+      selector_options(options, budget));
 }
 
 }  // namespace
@@ -70,8 +101,8 @@ std::optional<Mode> mode_named(std::string_view name) {
 }
 
 DatasetNeeds needs_of(Mode mode) {
-  const bool octree = mode == Mode::hierarchical;
-  return {.points = !octree, .octree = octree};
+  const bool streams = mode == Mode::hierarchical || mode == Mode::hybrid;
+  return {.points = !streams, .octree = mode == Mode::hierarchical};
 }
 
 std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Octree* octree,
@@ -100,6 +131,7 @@ std::unique_ptr<Method> make_method(Mode mode, const Dataset& dataset, const Met
     return std::make_unique<Hierarchical>(
         std::make_unique<TreeSupply>(dataset.tree, dataset.colors, dataset.bytes_to_load),
         budget_within(options.limits, options.largest_budget));
+  if (mode == Mode::hybrid && dataset.tree) return make_hybrid(dataset, options);
   return make_method(mode, dataset.points, dataset.octree ? &*dataset.octree : nullptr, options);
 }
 

@@ -19,6 +19,17 @@ constexpr std::uint32_t kLargestRequest = 65536;
 // How long collect() waits: a picture that stands still for a frame is better than a busy one.
 constexpr std::chrono::milliseconds kPatience{20};
 
+std::int32_t to_int32(double value) {
+  return static_cast<std::int32_t>(std::clamp(value, -2147483648.0, 2147483647.0));
+}
+
+// The smallest box of the grid that holds the world's, and a cell more for what rounding does.
+GridBox grid_box_around(const Grid& grid, const WorldBox& box) {
+  const glm::dvec3 low = glm::floor(grid.grid_from_world(box.min)) - 1.0;
+  const glm::dvec3 high = glm::ceil(grid.grid_from_world(box.max)) + 1.0;
+  return {{to_int32(low.x), to_int32(low.y), to_int32(low.z)}, {to_int32(high.x), to_int32(high.y), to_int32(high.z)}};
+}
+
 }  // namespace
 
 TreeSupply::TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before)
@@ -114,25 +125,24 @@ void TreeSupply::append_clusters(const KnownTree::Sight& sight, std::vector<Visi
   if (node.points == 0) return;
   ++visible_nodes_;
   first_id_of(node);  // throws when it has more points than a count of 32 bits holds
-  const auto append = [&](std::uint32_t first, std::uint32_t count, double pixels) {
+  const auto append = [&](std::uint32_t first, std::uint32_t count, const GridBox& box, double pixels) {
     clusters.push_back({static_cast<std::uint32_t>(parts_.size()), count, pixels, sight.distance});
-    parts_.push_back({sight.node, first});
+    parts_.push_back({sight.node, first, box});
   };
   const auto count = static_cast<std::uint32_t>(node.points);
-  if (!store_->reads_parts()) {
-    append(0, count, count);  // to be read once, in one go
-    return;
-  }
   const NodeDetails* details = tree_.details(sight.node);
-  if (!details) {
+  if (!details || !store_->reads_parts()) {
     const WorldBox box = generous_cell(info, node);
-    append(0, count, uniform_pixels(box, count, view_.forward, nearest_pixel_size(view_, box)));
+    // What can only be read in one go is read once
+    const double pixels =
+        store_->reads_parts() ? uniform_pixels(box, count, view_.forward, nearest_pixel_size(view_, box)) : count;
+    append(0, count, details ? details->box : grid_box_around(info.source.grid, box), pixels);
     return;
   }
   for (const Cluster& cluster : details->clusters) {
     const WorldBox box = world_box(info.source.grid, cluster.box);
     if (!may_see(frustum_, box)) continue;
-    append(cluster.first, cluster.count,
+    append(cluster.first, cluster.count, cluster.box,
            estimated_pixels(cluster.profile, info.cube.edge, nearest_pixel_size(view_, box)));
   }
 }

@@ -22,6 +22,13 @@ namespace stipple {
 // read_ahead() of them, and those of the frame being drawn. Stable ids are those of first_id_of().
 class TreeSupply final : public PointSupply {
  public:
+  // A cluster of a node in sight; the whole node where the tree knows no clusters.
+  struct Part {
+    std::uint32_t node;
+    std::uint32_t first;  // point of the node
+    GridBox box;          // holds all its points
+  };
+
   // `bytes_before`: of what was read from the store so far, what bytes_read() leaves out.
   TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before = 0);
   ~TreeSupply() override;
@@ -36,15 +43,14 @@ class TreeSupply final : public PointSupply {
   std::vector<PointPiece> collect(std::uint32_t most) override;
   std::uint64_t read_ahead(std::uint32_t budget) const override { return 3ull * budget; }
   std::uint64_t bytes_read() const override { return store_->bytes_read() - bytes_before_; }
+  // What a handle of the current view stands for; nodes keep their numbers from view to view.
+  const Part& part(std::uint32_t handle) const { return parts_[handle]; }
+  const StoredNode& node(std::uint32_t number) const { return tree_.node(number); }
+
   // Pieces of the hierarchy that were read after the first.
   std::uint64_t pieces_read() const { return tree_.pieces(); }
 
  private:
-  // A cluster of a node in sight; the whole node where the tree knows no clusters.
-  struct Part {
-    std::uint32_t node;
-    std::uint32_t first;  // point of the node
-  };
   struct Request {
     StoredNode node;
     std::uint32_t first;

@@ -1,0 +1,200 @@
+#include "render/method/tree_clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace stipple {
+namespace {
+
+constexpr int kTries = 3;  // to read a part
+// Slots freed at once: a share of the pool, so that it is not asked again in the next frame.
+constexpr std::uint32_t kFreedShare = 16;
+// Points uploaded in a frame, for each of its budget: what the next frames draw.
+constexpr std::uint64_t kUploadShare = 2;
+constexpr std::uint64_t kAheadShare = 4;
+constexpr std::uint64_t kLeastPoints = 65'536;  // of a frame's uploads
+
+std::uint64_t key_of(std::uint32_t node, std::uint32_t first) {
+  return std::uint64_t{node} << 32 | first;
+}
+std::uint32_t node_of(std::uint64_t key) {
+  return static_cast<std::uint32_t>(key >> 32);
+}
+std::uint32_t first_of(std::uint64_t key) {
+  return static_cast<std::uint32_t>(key);
+}
+
+}  // namespace
+
+TreeClusters::TreeClusters(std::shared_ptr<const TreeStore> store, const ColorMap& colors, std::uint64_t bytes_before,
+                           const Room& room)
+    : store_(store),
+      supply_(store, colors, bytes_before),
+      reader_(store, colors, store->info().cube.edge),
+      pool_(room.slots, store->info().cube.edge),
+      points_ahead_(room.points_ahead) {}
+
+void TreeClusters::start_view(const View& view) {
+  view_ = view;
+  ++view_number_;
+  for (const PartReader::Request& request : reader_.cancel()) loading_.erase(request.key);
+  wanted_.clear();
+  next_ = 0;
+  failures_.clear();
+  failure_ = nullptr;
+  for (Arrival& arrival : arrivals_) arrival.uploaded = 0;
+  want(supply_.visible(view));
+}
+
+void TreeClusters::want(const std::vector<VisibleCluster>& clusters) {
+  for (const VisibleCluster& cluster : clusters) {
+    const TreeSupply::Part& part = supply_.part(cluster.handle);
+    const double urgency = urgency_of(supply_.node(part.node), cluster.distance);
+    const std::uint32_t step = store_->reads_parts() ? kLargestPart : cluster.count;
+    for (std::uint32_t at = 0; at < cluster.count; at += step)
+      want(key_of(part.node, part.first + at), part, std::min(step, cluster.count - at), urgency);
+  }
+  std::stable_sort(wanted_.begin() + static_cast<std::ptrdiff_t>(next_), wanted_.end(),
+                   [](const Wanted& a, const Wanted& b) { return a.urgency > b.urgency; });
+}
+
+void TreeClusters::want(Key key, const TreeSupply::Part& part, std::uint32_t count, double urgency) {
+  const auto resident = residents_.find(key);
+  if (resident != residents_.end() && resident->second.whole) {
+    resident->second.view = view_number_;
+    resident->second.urgency = urgency;
+    return;
+  }
+  const auto loading = loading_.find(key);
+  if (loading != loading_.end())
+    loading->second = urgency;
+  else
+    wanted_.push_back({key, urgency, count, part.box});
+}
+
+// Trees that do not say how far the root's points are apart are taken to have 128 along its edge, as Potree does.
+double TreeClusters::urgency_of(const StoredNode& node, double distance) const {
+  const TreeInfo& info = store_->info();
+  const double root_spacing = info.spacing > 0.0 ? info.spacing : info.cube.edge / 128.0;
+  return std::ldexp(root_spacing, -node.level) / std::max(distance, view_.near);
+}
+
+void TreeClusters::load(std::uint32_t budget, ClusterSelector& selector) {
+  std::vector<Key> incomplete;
+  for (const auto& [key, resident] : residents_)
+    if (!resident.whole && resident.view != view_number_) incomplete.push_back(key);
+  for (const Key key : incomplete) drop(key, selector);
+
+  want(supply_.discovered());
+  request(std::min(points_ahead_, std::max(kLeastPoints, kAheadShare * budget)), selector);
+  receive(selector.open() == 0u && arrivals_.empty());
+  upload(std::max(kLeastPoints, kUploadShare * budget), selector);
+  if (failure_ && selector.open() == 0u && idle()) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+bool TreeClusters::idle() const {
+  return next_ == wanted_.size() && loading_.empty() && !supply_.searching();
+}
+
+// Goes on in wanted_ until so many points are on their way, leaving out what is hidden.
+void TreeClusters::request(std::uint64_t points, ClusterSelector& selector) {
+  while (next_ < wanted_.size() && reader_.points_under_way() + arrived_points_ < points) {
+    std::uint64_t asked = reader_.points_under_way() + arrived_points_;
+    std::size_t end = next_;
+    std::vector<GridBox> boxes;
+    for (; end < wanted_.size() && asked < points; ++end) {
+      asked += wanted_[end].count;
+      boxes.push_back(wanted_[end].box);
+    }
+    const std::vector<bool> hidden = selector.sees_depth() ? selector.hidden(boxes) : std::vector<bool>(boxes.size());
+    for (const bool is_hidden : hidden) {
+      const Wanted& wanted = wanted_[next_++];
+      if (is_hidden) continue;
+      loading_[wanted.key] = wanted.urgency;
+      reader_.request({wanted.key, supply_.node(node_of(wanted.key)), first_of(wanted.key), wanted.count});
+    }
+  }
+}
+
+void TreeClusters::receive(bool patient) {
+  for (PartReader::Part& part : reader_.collect(patient)) {
+    if (part.failure) {
+      fail(part.request, part.failure);
+      continue;
+    }
+    arrived_points_ += part.request.count;
+    arrivals_.push_back({part.request.key, std::move(part.points), part.request.count});
+  }
+}
+
+void TreeClusters::fail(const PartReader::Request& request, const std::exception_ptr& failure) {
+  if (++failures_[request.key] < kTries) return reader_.request(request);
+  loading_.erase(request.key);
+  if (!failure_) failure_ = failure;
+}
+
+void TreeClusters::upload(std::uint64_t points, ClusterSelector& selector) {
+  std::uint64_t uploaded = 0;
+  while (!arrivals_.empty() && uploaded < points) {
+    Arrival& arrival = arrivals_.front();
+    const std::uint32_t left = arrival.points.slots() - arrival.uploaded;
+    if (pool_.free_slots() < left) make_room(left, selector);
+    // A part waits until all of it has room, unless it can never have
+    const bool fits = arrival.points.slots() <= pool_.table().capacity;
+    const std::uint32_t slots = std::min(left, pool_.free_slots());
+    if (fits ? slots < left : slots == 0 && left > 0) return;
+    Resident& resident = residents_[arrival.key];
+    const std::vector<ClusterRun> runs = pool_.put(arrival.points, arrival.uploaded, slots);
+    selector.add(runs);
+    resident.runs.insert(resident.runs.end(), runs.begin(), runs.end());
+    resident.view = view_number_;
+    resident.urgency = loading_[arrival.key];
+    resident.whole = fits;
+    arrival.uploaded += slots;
+    uploaded += std::uint64_t{slots} * SlottedPoints::kPoints;
+    if (arrival.uploaded < arrival.points.slots()) continue;
+    loading_.erase(arrival.key);
+    arrived_points_ -= arrival.count;
+    arrivals_.pop_front();
+  }
+}
+
+// Frees slots until `slots` are free, and some more; fewer, if no more are to be had now.
+void TreeClusters::make_room(std::uint32_t slots, ClusterSelector& selector) {
+  const std::uint32_t wanted = std::max(slots, pool_.table().capacity / kFreedShare);
+  const auto free_first = [&](std::vector<Key> keys, auto before) {
+    std::ranges::sort(keys, [&](Key a, Key b) { return before(residents_.at(a), residents_.at(b)); });
+    for (std::size_t i = 0; i < keys.size() && pool_.free_slots() < wanted; ++i) drop(keys[i], selector);
+  };
+  std::vector<Key> unseen;
+  for (const auto& [key, resident] : residents_)
+    if (resident.view != view_number_) unseen.push_back(key);
+  free_first(std::move(unseen), [](const Resident& a, const Resident& b) { return a.view < b.view; });
+  if (pool_.free_slots() >= slots || !selector.open()) return;
+  free_first(finished_parts(selector), [](const Resident& a, const Resident& b) { return a.urgency < b.urgency; });
+}
+
+// Parts none of whose clusters has anything left for this view.
+std::vector<TreeClusters::Key> TreeClusters::finished_parts(const ClusterSelector& selector) const {
+  std::vector<bool> open(pool_.table().capacity);
+  for (const std::uint32_t cluster : selector.open_clusters()) open[cluster] = true;
+  std::vector<Key> finished;
+  for (const auto& [key, resident] : residents_) {
+    const bool has_open = std::ranges::any_of(resident.runs, [&](const ClusterRun& run) {
+      const auto first = open.begin() + static_cast<std::ptrdiff_t>(run.first);
+      return std::find(first, first + static_cast<std::ptrdiff_t>(run.count), true) != first + run.count;
+    });
+    if (!has_open) finished.push_back(key);
+  }
+  return finished;
+}
+
+void TreeClusters::drop(Key key, ClusterSelector& selector) {
+  const std::vector<ClusterRun>& runs = residents_.at(key).runs;
+  pool_.free(runs);
+  selector.remove(runs);
+  residents_.erase(key);
+}
+
+}  // namespace stipple

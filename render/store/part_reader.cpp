@@ -1,0 +1,84 @@
+#include "render/store/part_reader.h"
+
+#include <chrono>
+#include <utility>
+
+#include "render/store/tree_ids.h"
+
+namespace stipple {
+namespace {
+
+// Reads wait for the disk, not for a core.
+constexpr std::size_t kThreads = 4;
+// How long collect() waits: a picture that stands still for a frame is better than a busy one.
+constexpr std::chrono::milliseconds kPatience{20};
+
+}  // namespace
+
+PartReader::PartReader(std::shared_ptr<const TreeStore> store, ColorMap colors, double root_edge)
+    : store_(std::move(store)), colors_(std::move(colors)), root_edge_(root_edge) {
+  if (const auto index = find_attribute(store_->info().source.schema, colors_.attribute)) attributes_.push_back(*index);
+  for (std::size_t i = 0; i < kThreads; ++i) threads_.emplace_back([this] { work(); });
+}
+
+PartReader::~PartReader() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  work_ready_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void PartReader::request(Request request) {
+  points_under_way_ += request.count;
+  const std::lock_guard lock(mutex_);
+  queue_.push_back(std::move(request));
+  work_ready_.notify_one();
+}
+
+std::vector<PartReader::Request> PartReader::cancel() {
+  const std::lock_guard lock(mutex_);
+  std::vector<Request> cancelled(queue_.begin(), queue_.end());
+  queue_.clear();
+  for (const Request& request : cancelled) points_under_way_ -= request.count;
+  return cancelled;
+}
+
+std::vector<PartReader::Part> PartReader::collect(bool patient) {
+  std::vector<Part> parts;
+  std::unique_lock lock(mutex_);
+  if (patient && points_under_way_ > 0) arrived_.wait_for(lock, kPatience, [this] { return !parts_.empty(); });
+  parts.swap(parts_);
+  for (const Part& part : parts) points_under_way_ -= part.request.count;
+  return parts;
+}
+
+void PartReader::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    work_ready_.wait(lock, [this] { return stop_ || !queue_.empty(); });
+    if (stop_) return;
+    Part part{std::move(queue_.front()), {}};
+    queue_.pop_front();
+    lock.unlock();
+    try {
+      part.points = read(part.request);
+    } catch (...) {
+      part.failure = std::current_exception();
+    }
+    lock.lock();
+    parts_.push_back(std::move(part));
+    arrived_.notify_one();
+  }
+}
+
+SlottedPoints PartReader::read(const Request& request) const {
+  PointBatch batch;
+  store_->read_part(request.node, request.first, request.count, attributes_, batch);
+  Buffer<PackedPoint> points(batch.positions.size());
+  pack_points(colors_, batch.positions, batch.columns.empty() ? nullptr : &batch.columns.front(), 0, points);
+  return slotted(store_->info().source.grid, points, first_id_of(request.node) + request.first, root_edge_);
+}
+
+}  // namespace stipple
