@@ -1,7 +1,6 @@
 #include "src/viewer/display.h"
 
 #include <array>
-#include <limits>
 
 namespace stipple {
 namespace {
@@ -12,25 +11,30 @@ glm::vec3 color_of(std::uint32_t rrggbb) {
 
 }  // namespace
 
-Display::Display() : program_(Program::graphics("display_vertex.glsl", "display_fragment.glsl")) {
+Display::Display()
+    : one_(Program::graphics("display_vertex.glsl", "display_fragment.glsl")),
+      two_(Program::graphics("display_vertex.glsl", "display_fragment.glsl", {{"SPLIT"}})) {
   GLuint name = 0;
   glCreateVertexArrays(1, &name);
   no_vertices_ = Handle<gl_delete::vertex_array>(name);
 }
 
-void Display::draw(const Scene& scene, bool upside_down) {
+void Display::draw(const Scene& scene, const glm::ivec2& size, bool upside_down) {
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
-  const FeedbackTarget& right = scene.right ? *scene.right : *scene.left;
+  glViewport(0, 0, size.x, size.y);
+  (scene.right ? two_ : one_).use();
   scene.left->points().bind(0);
   scene.left->ids().bind(1);
-  right.points().bind(2);
-  right.ids().bind(3);
-  program_.use();
+  if (scene.right) {
+    scene.right->points().bind(2);
+    scene.right->ids().bind(3);
+    glUniform1i(3, scene.divider);
+  }
   const glm::vec3 background = color_of(scene.background);
   glUniform3f(0, background.x, background.y, background.z);
-  glUniform1i(1, scene.right ? scene.divider : std::numeric_limits<int>::max());
+  glUniform2i(1, size.x, size.y);
   glUniform1i(2, upside_down);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   glBindVertexArray(no_vertices_.name());
@@ -38,9 +42,8 @@ void Display::draw(const Scene& scene, bool upside_down) {
 }
 
 void Display::show(const Scene& scene, const glm::ivec2& window_size) {
-  clear(scene.background, window_size);
-  // A window that has just changed its size waits for its first frame
-  if (scene.left->size() == window_size) draw(scene, true);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  draw(scene, window_size, true);
 }
 
 void Display::clear(std::uint32_t background, const glm::ivec2& window_size) {
@@ -58,8 +61,7 @@ Image Display::picture(const Scene& scene) {
   const std::array<const Texture2D*, 1> attachments{&colors};
   const Framebuffer framebuffer(attachments, nullptr);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-  glViewport(0, 0, size.x, size.y);
-  draw(scene, false);
+  draw(scene, size, false);
   Image image{size, {}};
   image.rgb.resize(3 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);

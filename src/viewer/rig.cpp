@@ -49,7 +49,7 @@ void Rig::face(double yaw, double pitch, double aspect) {
 
 void Rig::orbit(const glm::dvec2& from, const glm::dvec2& to, const glm::ivec2& size) {
   const glm::dvec2 angle = (from - to) * (kTurn / std::max(size.y, 1));
-  set(orbited(pose_, pivot_, angle.x, -angle.y));
+  set(orbited(pose_, pivot_, angle.x, angle.y));
 }
 
 void Rig::turn(const glm::dvec2& from, const glm::dvec2& to, const glm::ivec2& size) {

@@ -24,6 +24,12 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kFirstBudget = 100'000;
 // Panels need a frame to learn of an event and one to lay themselves out.
 constexpr int kFramesAfterEvent = 3;
+// A camera that has not moved for so long stands still.
+constexpr double kStillSeconds = 0.15;
+// Points a frame of a still view, at least: nobody waits for its next frame, all wait for its last.
+constexpr std::uint32_t kLeastStillBudget = 200'000;
+// With no more points a frame than that, pixels are what takes its time.
+constexpr std::uint32_t kLeastMovingBudget = 20'000;
 constexpr double kWorkInterval = 0.1;  // seconds between two looks at what is being loaded
 
 MouseButton button_of(int code) {
@@ -216,7 +222,7 @@ void Viewer::follow(const Gesture& gesture) {
     case Gesture::Kind::double_click:
       if (!stage_.frame()) break;
       clicked_for_pivot_ = gesture.kind == Gesture::Kind::double_click;
-      clicked_.ask(*stage_.frame(), glm::ivec2(gesture.from));
+      clicked_.ask(*stage_.frame(), frame_pixel(gesture.from));
       break;
   }
 }
@@ -324,6 +330,10 @@ void Viewer::set_point_size(double pixels) {
 
 // --- What the cursor is at
 
+glm::ivec2 Viewer::frame_pixel(const glm::dvec2& place) const {
+  return glm::ivec2(place * glm::dvec2(stage_.frame()->size()) / glm::dvec2(size_));
+}
+
 glm::dvec3 Viewer::world_of(const PickedPixel& pixel) const {
   return stage_.grid().world_from_grid(pixel.position);
 }
@@ -354,7 +364,7 @@ void Viewer::read_answers() {
 void Viewer::ask_under_cursor() {
   if (!hover_stale_ || hover_.waiting() || !stage_.frame() || pointer_.holds()) return;
   hover_stale_ = false;
-  hover_.ask(*stage_.frame(), glm::ivec2(cursor_));
+  hover_.ask(*stage_.frame(), frame_pixel(cursor_));
 }
 
 void Viewer::pick(const PickedPixel& pixel) {
@@ -365,8 +375,20 @@ void Viewer::pick(const PickedPixel& pixel) {
 
 // --- Frames
 
+void Viewer::notice_motion() {
+  const Camera& now = rig_.camera();
+  if (now.eye == last_camera_.eye && now.target == last_camera_.target && now.up == last_camera_.up) return;
+  last_camera_ = now;
+  moved_at_ = window_.seconds();
+}
+
+bool Viewer::moving() const {
+  return moved_at_ >= 0.0 && window_.seconds() - moved_at_ < kStillSeconds;
+}
+
 std::uint32_t Viewer::budget() const {
-  return controller_ ? controller_->budget() : options_.policy.points;
+  if (!controller_) return options_.policy.points;
+  return moving() ? controller_->budget() : std::max(controller_->budget(), kLeastStillBudget);
 }
 
 void Viewer::set_policy(const BudgetPolicy& policy) {
@@ -378,17 +400,21 @@ void Viewer::set_policy(const BudgetPolicy& policy) {
 }
 
 void Viewer::draw_cloud() {
-  if (stage_.at_rest(view())) return;
-  stage_.draw(view(), budget());
+  const View fine = view();
+  const bool coarse = moving() && controller_ && resolution_.divisor() > 1;
+  const View next = coarse ? rig_.view(glm::max(size_ / resolution_.divisor(), 1)) : fine;
+  if (stage_.at_rest(next)) return;
+  stage_.draw(next, budget());
   hover_stale_ = true;
-  frames_to_show_ = std::max(frames_to_show_, 1);
 }
 
 void Viewer::show_frame() {
   size_ = glm::max(window_.size(), 1);
-  const bool drawing = !stage_.at_rest(view());
-  if (!drawing && frames_to_show_ == 0) return;
+  notice_motion();
+  if (stage_.at_rest(view()) && frames_to_show_ == 0) return;
   const auto start = Clock::now();
+  const std::uint64_t frames_before = stage_.frames();
+  const bool was_moving = moving();
   draw_cloud();
   if (stage_.frame())
     display_.show(scene(), size_);
@@ -396,9 +422,8 @@ void Viewer::show_frame() {
     display_.clear(options_.background, size_);
   show_panels();
   glFinish();
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  if (drawing && controller_ && stage_.shown() != Mode::brute_force)
-    controller_->frame_done(stage_.filled(), 1000.0 * seconds);
+  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  if (stage_.frames() > frames_before) learn_from(ms, was_moving);
   ask_under_cursor();
   window_.swap();
   ++frames_shown_;
@@ -407,7 +432,14 @@ void Viewer::show_frame() {
   const double now = window_.seconds();
   const double between = now - std::exchange(last_frame_, now);
   // After a pause the rate begins anew
-  frame_seconds_ = between > 0.5 || frame_seconds_ == 0.0 ? seconds : 0.9 * frame_seconds_ + 0.1 * between;
+  frame_seconds_ = between > 0.5 || frame_seconds_ == 0.0 ? 1e-3 * ms : 0.8 * frame_seconds_ + 0.2 * between;
+}
+
+void Viewer::learn_from(double ms, bool was_moving) {
+  if (!controller_ || stage_.shown() == Mode::brute_force) return;
+  const bool least = controller_->budget() <= kLeastMovingBudget;
+  controller_->frame_done(stage_.filled(), ms);
+  if (was_moving) resolution_.frame_done(ms, least, 1000.0 / *options_.policy.frames_per_second);
 }
 
 void Viewer::show_panels() {

@@ -14,6 +14,7 @@
 #include "src/viewer/panel.h"
 #include "src/viewer/pixel_reader.h"
 #include "src/viewer/pointer.h"
+#include "src/viewer/resolution.h"
 #include "src/viewer/rig.h"
 #include "src/viewer/stage.h"
 #include "src/viewer/window.h"
@@ -88,6 +89,10 @@ class Viewer {
 
   void show_frame();
   void draw_cloud();
+  void notice_motion();
+  bool moving() const;
+  void learn_from(double ms, bool was_moving);
+  glm::ivec2 frame_pixel(const glm::dvec2& place) const;
   void show_panels();
   void grant(const PanelWishes& wishes);
   void set_policy(const BudgetPolicy& policy);
@@ -113,6 +118,9 @@ class Viewer {
   double home_aspect_ = 1.0;
 
   std::optional<BudgetController> controller_;
+  Resolution resolution_;
+  Camera last_camera_;
+  double moved_at_ = -1.0;      // window seconds
   double frame_seconds_ = 0.0;  // smoothed, while frames follow each other
   double last_frame_ = 0.0;     // when
   int frames_to_show_ = 0;      // of panels that are not settled

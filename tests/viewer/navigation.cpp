@@ -175,7 +175,7 @@ TEST_F(Navigation, FacingABoxFillsThePictureWithIt) {
       farthest = std::max({farthest, std::abs(place.x), std::abs(place.y)});
     }
     EXPECT_LE(farthest, 1.0);
-    EXPECT_GE(farthest, 0.9);
+    EXPECT_GE(farthest, 0.75);
   }
 }
 
