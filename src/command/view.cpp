@@ -24,6 +24,7 @@ struct Options {
   std::string mode;
   std::string camera;
   std::string screenshot;
+  bool with_panels = false;
   bool exit_after_screenshot = false;
   DrawOptions draw;
 };
@@ -47,6 +48,7 @@ ViewerOptions viewer_options(const Options& options) {
   viewer.background = parse_color("--background", options.draw.background);
   if (!options.camera.empty()) viewer.camera = read_cameras(options.camera).front().camera;
   viewer.screenshot = options.screenshot;
+  viewer.with_panels = options.with_panels;
   viewer.exit_after_screenshot = options.exit_after_screenshot;
   if (options.exit_after_screenshot && options.inputs.empty())
     throw UsageError("--exit-after-screenshot: INPUT is missing, there is nothing to picture");
@@ -80,6 +82,7 @@ void add_view_command(CLI::App& app) {
   CLI::Option* screenshot =
       command->add_option("--screenshot", options->screenshot,
                           "PNG file to write when nothing is left to draw: the picture without the panels.");
+  command->add_flag("--with-panels", options->with_panels, "Picture the panels, too.")->needs(screenshot);
   command->add_flag("--exit-after-screenshot", options->exit_after_screenshot, "End then.")->needs(screenshot);
   command->footer(
       fmt::format("The window shows points while they are read. Press ? in it for the keys. Points a frame are steered "

@@ -85,10 +85,7 @@ bool Viewer::step(double most_seconds) {
   if (working) frames_to_show_ = std::max(frames_to_show_, 1);
   fly();
   read_answers();
-  if (!window_.hidden()) {
-    show_frame();
-    take_screenshot_if_due();
-  }
+  if (!window_.hidden()) show_frame();
   return !quit_ && !window_.asked_to_close();
 }
 
@@ -406,6 +403,7 @@ void Viewer::draw_cloud() {
   if (stage_.at_rest(next)) return;
   stage_.draw(next, budget());
   hover_stale_ = true;
+  if (stage_.at_rest(fine)) frames_to_show_ = kFramesAfterEvent;
 }
 
 void Viewer::show_frame() {
@@ -425,6 +423,8 @@ void Viewer::show_frame() {
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   if (stage_.frames() > frames_before) learn_from(ms, was_moving);
   ask_under_cursor();
+  // The last frame of panels that are settled
+  if (frames_to_show_ <= 1) take_screenshot_if_due();
   window_.swap();
   ++frames_shown_;
   frames_to_show_ = std::max(frames_to_show_ - 1, 0);
@@ -483,6 +483,18 @@ Image Viewer::picture() {
   throw Error("there is nothing to picture yet");
 }
 
+Image Viewer::window_picture() const {
+  Image image{size_, {}};
+  const auto row = 3 * static_cast<std::size_t>(size_.x);
+  image.rgb.resize(row * static_cast<std::size_t>(size_.y));
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  // Rows count from the lower edge
+  for (int y = 0; y < size_.y; ++y)
+    glReadPixels(0, y, size_.x, 1, GL_RGB, GL_UNSIGNED_BYTE,
+                 &image.rgb[row * static_cast<std::size_t>(size_.y - 1 - y)]);
+  return image;
+}
+
 void Viewer::take_screenshot_if_due() {
   if (screenshot_.empty() || !stage_.complete(view()) || workshop_.status().phase != WorkStatus::Phase::idle) return;
   const std::string path = std::exchange(screenshot_, {});
@@ -504,7 +516,7 @@ void Viewer::write_screenshot(const std::string& path) {
   facts.update(dataset_provenance(*stage_.dataset()));
   facts["view"] = view_provenance(view());
   facts.update(program_provenance());
-  write_png(path, picture(), {{"stipple", text_of(facts)}});
+  write_png(path, options_.with_panels ? window_picture() : picture(), {{"stipple", text_of(facts)}});
 }
 
 void Viewer::copy_command() {

@@ -33,6 +33,7 @@ struct ViewerOptions {
   std::uint32_t background = 0x808080;
   std::optional<Camera> camera;  // to begin with; none: sees the whole cloud
   std::string screenshot;        // taken when nothing is left to draw; empty: none
+  bool with_panels = false;      // pictured as well
   bool exit_after_screenshot = false;
 };
 
@@ -51,6 +52,8 @@ class Viewer {
   void execute(Command command);
   // What is drawn, without panels.
   Image picture();
+  // What is drawn, panels and all. Between drawing and swapping.
+  Image window_picture() const;
 
   // For tests and panels
   const Stage& stage() const { return stage_; }
@@ -60,6 +63,8 @@ class Viewer {
   View view() const { return rig_.view(size_); }
   // Nothing moves, is loaded or left to draw.
   bool at_rest() const;
+  // Pixels of the window that a pixel of the picture is wide and high while the camera moves.
+  int resolution() const { return resolution_.divisor(); }
   std::uint64_t frames_shown() const { return frames_shown_; }
   const std::string& note() const { return note_; }
 

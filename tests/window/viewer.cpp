@@ -9,6 +9,7 @@
 #include "octree/cloud/cloud.h"
 #include "octree/open/open.h"
 #include "render/measure/image.h"
+#include "src/run/median.h"
 #include "tests/command/run_stipple.h"
 #include "tests/window/x_display.h"
 
@@ -255,6 +256,34 @@ TEST_F(ViewerWindow, KeysShowHideAndQuit) {
   std::filesystem::remove("screenshot.png");
 }
 
+// With Mesa's software renderer on two cores, whatever the method but brute force.
+TEST_F(ViewerWindow, ShowsMoreThanTwentyFramesASecondOnTheMove) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "sanitized code is too slow to be timed";
+#endif
+  const std::string autzen = std::string(STIPPLE_SHARED_DATA) + "/derived/autzen-stadium.laz";
+  if (!std::filesystem::exists(autzen)) GTEST_SKIP() << autzen << " is missing: frames are not timed";
+  window_.reset();
+  window_.emplace(WindowOptions{.size = {1280, 720}, .errors_are_fatal = true});
+  start(1.0, autzen);
+  for (const auto& [key, mode] :
+       {std::pair{"F3", Mode::hybrid}, std::pair{"F1", Mode::unstructured}, std::pair{"F2", Mode::hierarchical}}) {
+    display().press(key);
+    ASSERT_TRUE(until([&] { return viewer_->stage().shown() == mode; }));
+    display().move(900, 300);
+    display().button(1, true);
+    std::vector<double> seconds;
+    for (int i = 1; i <= 80; ++i) {
+      display().move(900 + 3 * i, 300 + i / 4);
+      const double begin = window_->seconds();
+      viewer_->step(0.01);
+      if (i > 20) seconds.push_back(window_->seconds() - begin);
+    }
+    display().button(1, false);
+    EXPECT_LT(median(seconds), 1.0 / 20.0) << key << ", coarser by " << viewer_->resolution();
+  }
+}
+
 TEST(ViewCommand, TakesAScreenshotAndEnds) {
   if (!display().running()) GTEST_SKIP() << "Xvfb is missing (apt install xvfb): the window is not tested";
   const ScratchFolder folder;
@@ -265,6 +294,22 @@ TEST(ViewCommand, TakesAScreenshotAndEnds) {
   ASSERT_EQ(view.code, 0) << view.err;
   ASSERT_EQ(run_stipple(folder, "render " + common + "-o " + folder.path("file.png")).code, 0);
   EXPECT_EQ(read_png(folder.path("window.png")).rgb, read_png(folder.path("file.png")).rgb);
+}
+
+TEST(ViewCommand, PicturesTheWindowAsItIs) {
+  if (!display().running()) GTEST_SKIP() << "Xvfb is missing (apt install xvfb): the window is not tested";
+  const ScratchFolder folder;
+  const std::string city = city_file(folder, kPoints);
+  const std::string picture = folder.path("window.png");
+  const Outcome view = run_stipple(
+      folder, "view " + city + " --size 640x400 --screenshot " + picture + " --with-panels --exit-after-screenshot");
+  ASSERT_EQ(view.code, 0) << view.err;
+  const Image image = read_png(picture);
+  ASSERT_EQ(image.size, glm::ivec2(640, 400));
+  // Dark where the panel is, grey in the upper right corner
+  const std::size_t in_panel = 3 * (20 * 640 + 285);
+  EXPECT_LT(image.rgb[in_panel], 0x50);
+  EXPECT_EQ(image.rgb[3 * (5 * 640 + 635)], 0x80);
 }
 
 TEST(ViewCommand, SaysWhatToDoWithoutADisplay) {
