@@ -13,6 +13,8 @@ enum class Command {
   method_hierarchical,
   method_hybrid,
   method_brute_force,
+  split,
+  blink,
   home,
   view_top,
   view_bottom,

@@ -75,17 +75,29 @@ void show_cloud(const PanelFacts& facts, PanelWishes& wishes) {
   if (ImGui::Button("dismiss")) wishes.dismiss_error = true;
 }
 
+constexpr std::array kMethods{Mode::unstructured, Mode::hierarchical, Mode::hybrid, Mode::brute_force};
+
+// A column of buttons for each side.
 void show_methods(const PanelFacts& facts, PanelWishes& wishes) {
-  constexpr std::array kMethods{std::pair{Mode::unstructured, Command::method_unstructured},
-                                std::pair{Mode::hierarchical, Command::method_hierarchical},
-                                std::pair{Mode::hybrid, Command::method_hybrid},
-                                std::pair{Mode::brute_force, Command::method_brute_force}};
-  int number = 1;
-  for (const auto& [mode, command] : kMethods) {
-    const bool waits = facts.stage.wanted() == mode && facts.stage.shown() != mode && facts.stage.info();
-    const std::string label = fmt::format("F{}  {}{}", number++, name_of(mode), waits ? " ..." : "");
-    if (ImGui::RadioButton(label.c_str(), facts.stage.wanted() == mode)) wishes.commands.push_back(command);
+  const Stage& stage = facts.stage;
+  for (std::size_t i = 0; i < kMethods.size(); ++i) {
+    const Mode mode = kMethods[i];
+    const auto button = [&](Stage::Side side, const std::string& label) {
+      if (ImGui::RadioButton(label.c_str(), stage.wanted(side) == mode)) wishes.mode.emplace(mode, side);
+    };
+    const auto waits = [&](Stage::Side side) {
+      return stage.wanted(side) == mode && stage.pane(side).mode() != mode && stage.info();
+    };
+    if (stage.is_split()) {
+      button(Stage::left, fmt::format("##left{}", i));
+      ImGui::SameLine();
+    }
+    const bool waiting = waits(Stage::left) || (stage.is_split() && waits(Stage::right));
+    const std::string label = fmt::format("F{}  {}{}", i + 1, name_of(mode), waiting ? " ..." : "");
+    button(stage.is_split() ? Stage::right : Stage::left, label);
   }
+  bool split = stage.is_split();
+  if (ImGui::Checkbox("two side by side", &split)) wishes.commands.push_back(Command::split);
 }
 
 void show_pace(const PanelFacts& facts, PanelWishes& wishes) {
@@ -107,8 +119,12 @@ void show_pace(const PanelFacts& facts, PanelWishes& wishes) {
   const bool done = facts.stage.complete(facts.view);
   text(
       fmt::format("{:.0f} frames/s, {} points a frame", facts.frames_per_second, with_thousands(facts.stage.filled())));
-  text(fmt::format("{} points for this view{}", with_thousands(facts.stage.filled_for_view()),
-                   done ? ": nothing is left" : ""));
+  for (const Stage::Side side : {Stage::left, Stage::right}) {
+    if (side == Stage::right && !facts.stage.is_split()) break;
+    const Pane& pane = facts.stage.pane(side);
+    text(fmt::format("{}: {} points{}", pane.mode() ? name_of(*pane.mode()) : "preview",
+                     with_thousands(pane.filled_for_view()), done ? ", complete" : ""));
+  }
 }
 
 void show_look(const PanelFacts& facts, PanelWishes& wishes) {
@@ -180,6 +196,32 @@ void mark_picks(const PanelFacts& facts) {
   if (places.size() == 2) list.AddLine(places[0], places[1], kPickColor, 1.0f);
 }
 
+void show_divider(const PanelFacts& facts) {
+  const Stage& stage = facts.stage;
+  if (!stage.is_split() || !stage.frame(Stage::right)) return;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const auto name = [&](Stage::Side side) {
+    return std::string(stage.pane(side).mode() ? name_of(*stage.pane(side).mode()) : "preview");
+  };
+  const auto put = [&](const std::string& label, float x) {
+    const ImVec2 size = ImGui::CalcTextSize(label.c_str());
+    const float margin = 4.0f * facts.scale;
+    const float y = display.y - size.y - 2.0f * margin;
+    list.AddRectFilled({x - margin, y - margin}, {x + size.x + margin, y + size.y + margin}, IM_COL32(25, 28, 33, 200));
+    list.AddText({x, y}, IM_COL32_WHITE, label.c_str());
+  };
+  const float gap = 12.0f * facts.scale;
+  if (!facts.divider) {
+    put(name(facts.right_alone ? Stage::right : Stage::left), 0.5f * display.x);
+    return;
+  }
+  const float x = static_cast<float>(*facts.divider) * display.x / static_cast<float>(facts.view.size.x);
+  list.AddLine({x, 0.0f}, {x, display.y}, IM_COL32(255, 255, 255, 200), 1.5f * facts.scale);
+  put(name(Stage::left), x - gap - ImGui::CalcTextSize(name(Stage::left).c_str()).x);
+  put(name(Stage::right), x + gap);
+}
+
 void show_keys(const PanelFacts& facts, PanelWishes& wishes) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -227,6 +269,7 @@ std::vector<std::string> colors_of(const SourceInfo& info) {
 PanelWishes show_panel(const PanelFacts& facts) {
   PanelWishes wishes;
   mark_picks(facts);
+  show_divider(facts);
   show_hint(facts);
   if (facts.keys_shown) show_keys(facts, wishes);
   if (!facts.panel_shown) return wishes;

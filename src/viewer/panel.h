@@ -34,6 +34,8 @@ struct PanelFacts {
   BudgetPolicy policy;
   double point_size = 1.0;
   std::uint32_t background = 0;
+  std::optional<int> divider;  // column of the picture, where two sides are seen
+  bool right_alone = false;    // of two sides
   const std::optional<std::array<std::string, 3>>& under_cursor;
   const std::string& note;  // what happened last
   bool panel_shown = true;
@@ -44,6 +46,7 @@ struct PanelFacts {
 // What was asked for in it.
 struct PanelWishes {
   std::vector<Command> commands;
+  std::optional<std::pair<Mode, Stage::Side>> mode;
   std::optional<std::string> color;
   std::optional<double> point_size;
   std::optional<std::uint32_t> background;

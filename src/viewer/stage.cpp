@@ -7,45 +7,57 @@
 namespace stipple {
 namespace {
 
-bool same(const Grid& a, const Grid& b) {
-  return a.offset == b.offset && a.scale == b.scale;
-}
-
-bool same(const ColorMap& a, const ColorMap& b) {
-  return a.attribute == b.attribute && a.kind == b.kind && a.low == b.low && a.high == b.high;
-}
+constexpr std::array kSides{Stage::left, Stage::right};
 
 }  // namespace
 
 Stage::Stage(Workshop& workshop, RasterizerKind rasterizer, double point_size)
-    : workshop_(workshop), rasterizer_(rasterizer), point_size_(point_size) {}
+    : workshop_(workshop), panes_{Pane(rasterizer, point_size), Pane(rasterizer, point_size)} {}
 
 void Stage::open(const Opening& opening, bool again) {
-  // What is shown lives on without them
+  // What is shown lives on in the panes
   ready_.clear();
-  asked_ = {opening.mode};
   preview_.reset();
   again_ = again;
-  new_points_ = true;
-  wanted_ = opening.mode;
+  outdated_ = {true, true};
   error_.clear();
+  wanted_[left] = opening.mode;
+  if (wanted_[right] == opening.mode) wanted_[right] = opening.mode == Mode::hybrid ? Mode::unstructured : Mode::hybrid;
+  asked_ = {opening.mode};
   workshop_.open(opening);
+  if (split_) want(wanted_[right], right);
 }
 
-void Stage::want(Mode mode) {
-  wanted_ = mode;
-  if (!info_ || shown_mode_ == mode) return;
-  if (const auto ready = ready_.find(mode); ready != ready_.end()) {
-    show(ready->second, mode, ready->second.dataset->points.grid, ready->second.dataset->colors);
-  } else if (asked_.insert(mode).second) {
-    workshop_.make(mode);
+void Stage::want(Mode mode, Side side) {
+  const Side other = side == left ? right : left;
+  if (split_ && wanted_[other] == mode && wanted_[side] != mode) {
+    std::swap(wanted_[left], wanted_[right]);
+    std::swap(panes_[left], panes_[right]);
+    std::swap(outdated_[left], outdated_[right]);
+    return;
   }
+  wanted_[side] = mode;
+  if (!info_ || (panes_[side].mode() == mode && !outdated_[side])) return;
+  if (const auto ready = ready_.find(mode); ready != ready_.end())
+    show(side, ready->second);
+  else if (asked_.insert(mode).second)
+    workshop_.make(mode);
+}
+
+void Stage::split(bool on) {
+  split_ = on;
+  if (!on) return;
+  if (wanted_[right] == wanted_[left])
+    wanted_[right] = wanted_[left] == Mode::hybrid ? Mode::unstructured : Mode::hybrid;
+  want(wanted_[right], right);
 }
 
 void Stage::set_point_size(double pixels) {
-  const double before = std::exchange(point_size_, pixels);
-  if (!renderer_ || pixels == before) return;
-  if (!make_renderer()) point_size_ = before;
+  try {
+    for (Pane& pane : panes_) pane.set_point_size(pixels);
+  } catch (const Error& e) {
+    error_ = e.what();
+  }
 }
 
 void Stage::take(const finished::Beginning& beginning) {
@@ -56,8 +68,10 @@ void Stage::take(const finished::Beginning& beginning) {
 void Stage::take(const finished::Preview& preview) {
   if (!preview_) return;
   preview_->add(preview.points);
-  report_.converged = false;
-  if (new_points_) show({preview_, nullptr}, std::nullopt, info_->grid, preview.points.colors);
+  if (outdated_[left])
+    show(left, {preview_, nullptr, std::nullopt, info_->grid, preview.points.colors});
+  else
+    panes_[left].wake();
 }
 
 void Stage::take(const finished::Cloud& cloud) {
@@ -67,10 +81,16 @@ void Stage::take(const finished::Cloud& cloud) {
 
 void Stage::take(finished::MadeMethod made) {
   asked_.erase(made.mode);
-  const auto entry = ready_.insert_or_assign(made.mode, Ready{std::move(made.method), std::move(made.dataset)}).first;
+  const auto& content = ready_
+                            .insert_or_assign(made.mode, Pane::Content{std::move(made.method), made.dataset, made.mode,
+                                                                       made.dataset->points.grid, made.dataset->colors})
+                            .first->second;
   // What is not wanted is better than nothing, or than what is old
-  if (made.mode == wanted_ || new_points_ || preview_)
-    show(entry->second, made.mode, entry->second.dataset->points.grid, entry->second.dataset->colors);
+  const bool better = outdated_[left] || !panes_[left].mode();
+  if (made.mode == wanted_[left] || (better && !(split_ && made.mode == wanted_[right])))
+    show(left, content);
+  else if (split_ && made.mode == wanted_[right])
+    show(right, content);
 }
 
 void Stage::take(const finished::Failure& failure) {
@@ -79,45 +99,45 @@ void Stage::take(const finished::Failure& failure) {
     asked_.erase(*failure.mode);
   else
     asked_.clear();
-  if (shown_mode_ && !asked_.contains(wanted_)) wanted_ = *shown_mode_;
+  for (const Side side : kSides) {
+    const std::optional<Mode> shown = panes_[side].mode();
+    if (shown && !asked_.contains(wanted_[side])) wanted_[side] = *shown;
+  }
+  if (split_ && panes_[right].empty() && !asked_.contains(wanted_[right])) split_ = false;
 }
 
-void Stage::show(Ready next, std::optional<Mode> mode, const Grid& grid, const ColorMap& colors) {
-  const bool keep = renderer_ && !new_points_ && same(grid, grid_) && same(colors, colors_);
-  // The old method has to live until the renderer has let go of it
-  const Ready before = std::exchange(shown_, std::move(next));
-  shown_mode_ = mode;
-  grid_ = grid;
-  colors_ = colors;
-  new_points_ = false;
-  if (mode) preview_.reset();
-  drawn_view_ = {};
-  if (keep)
-    renderer_->use(*shown_.method);
-  else if (!make_renderer())
-    renderer_.reset();
-}
-
-bool Stage::make_renderer() {
+void Stage::show(Side side, const Pane::Content& content) {
   try {
-    renderer_ = std::make_unique<ProgressiveRenderer>(*shown_.method, rasterizer_, grid_, point_size_);
-    drawn_view_ = {};
-    return true;
+    panes_[side].show(content, outdated_[side]);
+    outdated_[side] = false;
+    if (content.mode) preview_.reset();
   } catch (const Error& e) {
     error_ = e.what();
-    return false;
   }
 }
 
 void Stage::draw(const View& view, std::uint32_t budget) {
-  if (!renderer_) return;
-  if (view != drawn_view_) {
-    drawn_view_ = view;
-    view_points_ = 0;
-  }
-  report_ = renderer_->draw(view, budget);
-  view_points_ += report_.points_filled;
-  ++frames_;
+  const auto share = std::max(budget / static_cast<std::uint32_t>(sides()), 1u);
+  for (int side = 0; side < sides(); ++side) panes_[static_cast<std::size_t>(side)].draw(view, share);
+}
+
+bool Stage::at_rest(const View& view) const {
+  return panes_[left].at_rest(view) && (!split_ || panes_[right].at_rest(view));
+}
+
+bool Stage::complete(const View& view) const {
+  if (!at_rest(view)) return false;
+  for (const Side side : kSides)
+    if ((side == left || split_) && panes_[side].mode() != wanted_[side]) return false;
+  return true;
+}
+
+std::uint64_t Stage::filled() const {
+  return panes_[left].filled() + (split_ ? panes_[right].filled() : 0);
+}
+
+std::uint64_t Stage::frames() const {
+  return panes_[left].frames() + panes_[right].frames();
 }
 
 }  // namespace stipple

@@ -173,11 +173,13 @@ void Viewer::take_event(const InputEvent& event) {
       if (!gui_.takes_mouse()) press(event);
       break;
     case Kind::release:
+      drags_divider_ = false;
       if (const auto gesture = pointer_.release(button_of(event.code), event.place, event.seconds)) follow(*gesture);
       break;
     case Kind::move:
       cursor_ = event.place;
       hover_stale_ = true;
+      if (drags_divider_) divider_ = std::clamp(event.place.x / size_.x, 0.02, 0.98);
       if (const auto gesture = pointer_.move(event.place)) follow(*gesture);
       break;
     case Kind::scroll:
@@ -187,7 +189,11 @@ void Viewer::take_event(const InputEvent& event) {
     case Kind::key:
     case Kind::character:
       if (gui_.takes_keys()) break;
-      if (const auto command = command_of(event)) execute(*command);
+      if (const auto command = command_of(event)) {
+        right_meant_ = stage_.is_split() && (event.modifiers & GLFW_MOD_SHIFT) != 0;
+        execute(*command);
+        right_meant_ = false;
+      }
       break;
     case Kind::drop:
       if (!event.paths.empty()) open(event.paths);
@@ -197,7 +203,16 @@ void Viewer::take_event(const InputEvent& event) {
   }
 }
 
+bool Viewer::shows_both() const {
+  return stage_.is_split() && shown_sides_ == Shown::both && stage_.frame(Stage::left) && stage_.frame(Stage::right);
+}
+
 void Viewer::press(const InputEvent& event) {
+  constexpr double kReach = 6.0;  // pixels to each side of the line
+  if (shows_both() && std::abs(event.place.x - divider_column()) <= kReach * window_.text_scale()) {
+    drags_divider_ = true;
+    return;
+  }
   pointer_.press(button_of(event.code),
                  {.shift = (event.modifiers & GLFW_MOD_SHIFT) != 0, .alt = (event.modifiers & GLFW_MOD_ALT) != 0},
                  event.place, event.seconds);
@@ -258,13 +273,18 @@ void Viewer::execute(Command command) {
   note_.clear();
   switch (command) {
     case Command::method_unstructured:
-      return stage_.want(Mode::unstructured);
+      return stage_.want(Mode::unstructured, right_meant_ ? Stage::right : Stage::left);
     case Command::method_hierarchical:
-      return stage_.want(Mode::hierarchical);
+      return stage_.want(Mode::hierarchical, right_meant_ ? Stage::right : Stage::left);
     case Command::method_hybrid:
-      return stage_.want(Mode::hybrid);
+      return stage_.want(Mode::hybrid, right_meant_ ? Stage::right : Stage::left);
     case Command::method_brute_force:
-      return stage_.want(Mode::brute_force);
+      return stage_.want(Mode::brute_force, right_meant_ ? Stage::right : Stage::left);
+    case Command::split:
+      shown_sides_ = Shown::both;
+      return stage_.split(!stage_.is_split());
+    case Command::blink:
+      return blink();
     case Command::home:
       return go_home();
     case Command::view_top:
@@ -309,6 +329,10 @@ void Viewer::execute(Command command) {
       quit_ = true;
       return;
   }
+}
+
+void Viewer::blink() {
+  shown_sides_ = shown_sides_ == Shown::both ? Shown::left : shown_sides_ == Shown::left ? Shown::right : Shown::both;
 }
 
 void Viewer::next_color() {
@@ -436,7 +460,7 @@ void Viewer::show_frame() {
 }
 
 void Viewer::learn_from(double ms, bool was_moving) {
-  if (!controller_ || stage_.shown() == Mode::brute_force) return;
+  if (!controller_ || stage_.pane().mode() == Mode::brute_force) return;
   const bool least = controller_->budget() <= kLeastMovingBudget;
   controller_->frame_done(stage_.filled(), ms);
   if (was_moving) resolution_.frame_done(ms, least, 1000.0 / *options_.policy.frames_per_second);
@@ -454,6 +478,8 @@ void Viewer::show_panels() {
                                          .policy = options_.policy,
                                          .point_size = options_.point_size,
                                          .background = options_.background,
+                                         .divider = shows_both() ? std::optional(divider_column()) : std::nullopt,
+                                         .right_alone = shown_sides_ == Shown::right,
                                          .under_cursor = under_cursor_,
                                          .note = note_,
                                          .panel_shown = panel_shown_,
@@ -465,6 +491,7 @@ void Viewer::show_panels() {
 
 void Viewer::grant(const PanelWishes& wishes) {
   for (const Command command : wishes.commands) execute(command);
+  if (wishes.mode) stage_.want(wishes.mode->first, wishes.mode->second);
   if (wishes.color) reopen(*wishes.color);
   if (wishes.point_size) set_point_size(*wishes.point_size);
   if (wishes.background) options_.background = *wishes.background;
@@ -475,7 +502,14 @@ void Viewer::grant(const PanelWishes& wishes) {
 // --- What leaves the window
 
 Display::Scene Viewer::scene() const {
-  return {.left = stage_.frame(), .background = options_.background};
+  Display::Scene scene{.left = stage_.frame(), .background = options_.background};
+  if (shows_both()) {
+    scene.right = stage_.frame(Stage::right);
+    scene.divider = divider_column();
+  } else if (stage_.is_split() && shown_sides_ == Shown::right && stage_.frame(Stage::right)) {
+    scene.left = stage_.frame(Stage::right);
+  }
+  return scene;
 }
 
 Image Viewer::picture() {
@@ -510,9 +544,9 @@ void Viewer::take_screenshot_if_due() {
 }
 
 void Viewer::write_screenshot(const std::string& path) {
-  Json facts{{"mode", name_of(*stage_.shown())},  {"raster", name_of(options_.rasterizer)},
-             {"point_size", options_.point_size}, {"background", fmt::format("{:06x}", options_.background)},
-             {"gl_renderer", window_.renderer()}, {"gl_version", window_.version()}};
+  Json facts{{"mode", name_of(*stage_.pane().mode())}, {"raster", name_of(options_.rasterizer)},
+             {"point_size", options_.point_size},      {"background", fmt::format("{:06x}", options_.background)},
+             {"gl_renderer", window_.renderer()},      {"gl_version", window_.version()}};
   facts.update(dataset_provenance(*stage_.dataset()));
   facts["view"] = view_provenance(view());
   facts.update(program_provenance());
@@ -521,9 +555,9 @@ void Viewer::write_screenshot(const std::string& path) {
 
 void Viewer::copy_command() {
   const Dataset* dataset = stage_.dataset();
-  if (!dataset || !stage_.shown()) return;
+  if (!dataset || !stage_.pane().mode()) return;
   window_.set_clipboard(text_of(RenderCommand{.inputs = options_.inputs,
-                                              .mode = std::string(name_of(*stage_.shown())),
+                                              .mode = std::string(name_of(*stage_.pane().mode())),
                                               .raster = std::string(name_of(options_.rasterizer)),
                                               .camera = rig_.camera(),
                                               .size = size_,

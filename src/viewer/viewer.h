@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -65,6 +66,8 @@ class Viewer {
   bool at_rest() const;
   // Pixels of the window that a pixel of the picture is wide and high while the camera moves.
   int resolution() const { return resolution_.divisor(); }
+  // At which the right side begins.
+  int divider_column() const { return static_cast<int>(std::lround(divider_ * size_.x)); }
   std::uint64_t frames_shown() const { return frames_shown_; }
   const std::string& note() const { return note_; }
 
@@ -79,6 +82,8 @@ class Viewer {
 
   void take_event(const InputEvent& event);
   void press(const InputEvent& event);
+  void blink();
+  bool shows_both() const;
   void follow(const Gesture& gesture);
   void fly();
   void face(double yaw_deg, double pitch_deg);
@@ -115,6 +120,10 @@ class Viewer {
   Stage stage_;  // after the workshop, whose work it owns
   Rig rig_;
   Pointer pointer_;
+  double divider_ = 0.5;  // share of the width
+  bool drags_divider_ = false;
+  bool right_meant_ = false;  // by the key being looked at
+  enum class Shown { both, left, right } shown_sides_ = Shown::both;
 
   glm::ivec2 size_{1};    // of the last frame
   bool entered_ = false;  // the open cloud

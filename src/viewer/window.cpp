@@ -167,24 +167,23 @@ void Window::add(InputEvent event) {
 
 void Window::install_callbacks() {
   glfwSetWindowUserPointer(window_, this);
+  glfwGetCursorPos(window_, &cursor_.x, &cursor_.y);
+  cursor_ *= pixels_a_unit();
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* handle, int button, int action, int modifiers) {
     Window& window = window_of(handle);
-    glm::dvec2 place{0.0};
-    glfwGetCursorPos(handle, &place.x, &place.y);
     window.add({.kind = action == GLFW_PRESS ? InputEvent::Kind::press : InputEvent::Kind::release,
                 .code = button,
                 .modifiers = modifiers,
-                .place = place * window.pixels_a_unit()});
+                .place = window.cursor_});
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* handle, double x, double y) {
     Window& window = window_of(handle);
-    window.add({.kind = InputEvent::Kind::move, .place = glm::dvec2(x, y) * window.pixels_a_unit()});
+    window.cursor_ = glm::dvec2(x, y) * window.pixels_a_unit();
+    window.add({.kind = InputEvent::Kind::move, .place = window.cursor_});
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* handle, double x, double y) {
     Window& window = window_of(handle);
-    glm::dvec2 place{0.0};
-    glfwGetCursorPos(handle, &place.x, &place.y);
-    window.add({.kind = InputEvent::Kind::scroll, .place = place * window.pixels_a_unit(), .amount = {x, y}});
+    window.add({.kind = InputEvent::Kind::scroll, .place = window.cursor_, .amount = {x, y}});
   });
   glfwSetKeyCallback(window_, [](GLFWwindow* handle, int key, int, int action, int modifiers) {
     if (action != GLFW_RELEASE)

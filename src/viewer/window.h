@@ -84,6 +84,7 @@ class Window {
   std::unique_ptr<Library> library_;
   GLFWwindow* window_ = nullptr;
   bool errors_are_fatal_;
+  glm::dvec2 cursor_{0.0};  // of the last event: where it is now may be farther on
   std::vector<InputEvent> events_;
   std::string renderer_;
   std::string version_;

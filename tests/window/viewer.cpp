@@ -104,7 +104,7 @@ TEST_F(ViewerWindow, OpensOrbitsTakesEveryMethodAndShowsWhatRenderDraws) {
     display().press(key);
     ASSERT_TRUE(until([&] {
       EXPECT_TRUE(covered()) << "no frame is blank";
-      return viewer_->stage().shown() == mode && viewer_->at_rest();
+      return viewer_->stage().pane().mode() == mode && viewer_->at_rest();
     })) << key;
     const Image now = viewer_->picture();
     if (last) {
@@ -113,6 +113,52 @@ TEST_F(ViewerWindow, OpensOrbitsTakesEveryMethodAndShowsWhatRenderDraws) {
     last = now;
   }
   EXPECT_EQ(last->rgb, headless().rgb);
+}
+
+TEST_F(ViewerWindow, ShowsTwoMethodsSideBySideWithOneCamera) {
+  start(2.0);
+  ASSERT_TRUE(complete());
+  const Image alone = viewer_->picture();
+  display().press("v");
+  ASSERT_TRUE(until([&] { return viewer_->stage().frame(Stage::right) != nullptr; }));
+  ASSERT_TRUE(complete());
+  EXPECT_NE(viewer_->stage().pane(Stage::left).mode(), viewer_->stage().pane(Stage::right).mode());
+  EXPECT_EQ(viewer_->picture().rgb, alone.rgb) << "both converge to one picture";
+
+  // The line is moved, not the camera
+  const Camera before = viewer_->rig().camera();
+  display().move(kSize.x / 2, 300);
+  steps(2);
+  display().button(1, true);
+  display().move(kSize.x / 2 + 100, 300);
+  steps(3);
+  display().button(1, false);
+  steps(3);
+  EXPECT_EQ(viewer_->rig().camera().eye, before.eye);
+  EXPECT_EQ(viewer_->divider_column(), kSize.x / 2 + 100);
+  // What both have left to draw is the same no more once the camera moves; on the way either side shows something
+  display().move(kCentreX, kCentreY);
+  display().button(1, true);
+  for (int i = 1; i <= 5; ++i) {
+    display().move(kCentreX + 8 * i, kCentreY);
+    steps(1);
+    EXPECT_TRUE(covered());
+  }
+  display().button(1, false);
+
+  display().key("Shift_L", true);
+  display().press("F2");
+  display().key("Shift_L", false);
+  ASSERT_TRUE(until([&] { return viewer_->stage().pane(Stage::right).mode() == Mode::hierarchical; }));
+  EXPECT_EQ(viewer_->stage().pane(Stage::left).mode(), Mode::hybrid);
+  ASSERT_TRUE(complete());
+  display().press("b");
+  steps(3);
+  const Image left = viewer_->picture();
+  display().press("b");
+  steps(3);
+  EXPECT_EQ(viewer_->picture().rgb, left.rgb);
+  EXPECT_EQ(left.rgb, headless().rgb);
 }
 
 TEST_F(ViewerWindow, AStillViewDrawsNothing) {
@@ -229,14 +275,14 @@ TEST_F(ViewerWindow, AnOctreeOnDiskIsDrawnFromThere) {
   ASSERT_EQ(run_stipple(folder_, "build " + city_ + " -o " + tree).code, 0);
   start(1.0, tree);
   ASSERT_TRUE(complete());
-  EXPECT_EQ(viewer_->stage().shown(), Mode::hierarchical);
+  EXPECT_EQ(viewer_->stage().pane().mode(), Mode::hierarchical);
   EXPECT_FALSE(viewer_->stage().dataset()->in_memory());
   const Image from_disk = viewer_->picture();
   display().click(1);
   ASSERT_TRUE(until([&] { return !viewer_->picks().empty() && !viewer_->picks()[0].values.empty(); }));
   EXPECT_NE(viewer_->picks()[0].values[0].first, "") << viewer_->picks()[0].values[0].second;
   display().press("F1");
-  ASSERT_TRUE(until([&] { return viewer_->stage().shown() == Mode::unstructured && viewer_->at_rest(); }));
+  ASSERT_TRUE(until([&] { return viewer_->stage().pane().mode() == Mode::unstructured && viewer_->at_rest(); }));
   EXPECT_EQ(viewer_->picture().rgb, from_disk.rgb);
 }
 
@@ -269,7 +315,7 @@ TEST_F(ViewerWindow, ShowsMoreThanTwentyFramesASecondOnTheMove) {
   for (const auto& [key, mode] :
        {std::pair{"F3", Mode::hybrid}, std::pair{"F1", Mode::unstructured}, std::pair{"F2", Mode::hierarchical}}) {
     display().press(key);
-    ASSERT_TRUE(until([&] { return viewer_->stage().shown() == mode; }));
+    ASSERT_TRUE(until([&] { return viewer_->stage().pane().mode() == mode; }));
     display().move(900, 300);
     display().button(1, true);
     std::vector<double> seconds;
