@@ -9,6 +9,8 @@
 #include "render/method/brute_force.h"
 #include "render/method/hierarchical.h"
 #include "render/method/hybrid.h"
+#include "render/method/lod.h"
+#include "render/method/subsample.h"
 #include "render/method/tree_clusters.h"
 #include "render/method/unstructured.h"
 #include "render/store/cluster_cloud.h"
@@ -18,7 +20,8 @@
 namespace stipple {
 namespace {
 
-constexpr std::array kModes{Mode::brute_force, Mode::hierarchical, Mode::unstructured, Mode::hybrid};
+constexpr std::array kModes{Mode::brute_force, Mode::hierarchical, Mode::unstructured,
+                            Mode::hybrid,      Mode::lod,          Mode::subsample};
 
 // Of modes that keep all points on the GPU.
 void check_room(Mode mode, std::size_t points, std::uint64_t bytes, const MemoryLimits& limits) {
@@ -74,6 +77,17 @@ std::unique_ptr<Method> make_hybrid(const Dataset& dataset, const MethodOptions&
       selector_options(options, budget));
 }
 
+// The pool has room for twice what a frame draws: what comes while the camera moves finds what goes.
+std::unique_ptr<Method> make_lod(const Dataset& dataset, const MethodOptions& options) {
+  constexpr std::uint64_t kPointsOfPart = 2'000;  // and its last slot, half full
+  const std::uint64_t points = 2 * std::uint64_t{options.largest_budget};
+  const std::uint64_t wanted = points / SlottedPoints::kPoints + points / kPointsOfPart + 1024;
+  const std::uint64_t slots = std::min<std::uint64_t>(
+      {wanted, options.limits.gpu / ClusterPool::kSlotBytes, std::uint64_t{ClusterTable::kMostClusters}});
+  return std::make_unique<Lod>(std::make_unique<TreeLod>(dataset.tree, dataset.colors, dataset.bytes_to_load,
+                                                         static_cast<std::uint32_t>(slots)));
+}
+
 }  // namespace
 
 std::span<const Mode> all_modes() {
@@ -90,6 +104,10 @@ std::string_view name_of(Mode mode) {
       return "unstructured";
     case Mode::hybrid:
       return "hybrid";
+    case Mode::lod:
+      return "lod";
+    case Mode::subsample:
+      return "subsample";
   }
   return "";
 }
@@ -100,9 +118,15 @@ std::optional<Mode> mode_named(std::string_view name) {
   return std::nullopt;
 }
 
+std::string mode_names() {
+  std::string names;
+  for (const Mode mode : kModes) names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(mode));
+  return names;
+}
+
 DatasetNeeds needs_of(Mode mode) {
-  const bool streams = mode == Mode::hierarchical || mode == Mode::hybrid;
-  return {.points = !streams, .octree = mode == Mode::hierarchical};
+  const bool nodes = mode == Mode::hierarchical || mode == Mode::lod;
+  return {.points = !nodes && mode != Mode::hybrid, .octree = nodes};
 }
 
 std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Octree* octree,
@@ -122,6 +146,13 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
       return std::make_unique<Unstructured>(points, options.seed);
     case Mode::hybrid:
       return make_hybrid(points, options);
+    case Mode::lod:
+      if (!octree) throw Error("mode lod needs an octree");
+      check_room(mode, points.size(), points.size() * kGpuBytesPerPoint, options.limits);
+      return std::make_unique<Lod>(std::make_unique<MemoryLod>(points, *octree));
+    case Mode::subsample:
+      check_room(mode, points.size(), points.size() * kGpuBytesPerPoint, options.limits);
+      return std::make_unique<Subsample>(points, options.seed);
   }
   return nullptr;
 }
@@ -131,6 +162,7 @@ std::unique_ptr<Method> make_method(Mode mode, const Dataset& dataset, const Met
     return std::make_unique<Hierarchical>(
         std::make_unique<TreeSupply>(dataset.tree, dataset.colors, dataset.bytes_to_load),
         budget_within(options.limits, options.largest_budget));
+  if (mode == Mode::lod && dataset.tree) return make_lod(dataset, options);
   if (mode == Mode::hybrid && dataset.tree) return make_hybrid(dataset, options);
   return make_method(mode, dataset.points, dataset.octree ? &*dataset.octree : nullptr, options);
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -48,17 +49,20 @@ class Method {
   virtual Selection select(std::uint32_t budget) = 0;
   // The frame with the selected points is drawn; the view block is still bound.
   virtual void frame_drawn(const FeedbackTarget&) {}
-  // Nothing is left for this view: the picture equals the brute-force picture.
+  // Nothing is left for this view: the picture equals the brute-force picture, but for mode lod, which stops at the
+  // budget.
   virtual bool finished() const = 0;
   virtual SelectionCounts counts() const { return {}; }
 };
 
-enum class Mode { brute_force, hierarchical, unstructured, hybrid };
+enum class Mode { brute_force, hierarchical, unstructured, hybrid, lod, subsample };
 
 std::span<const Mode> all_modes();
-// "brute-force", "hierarchical", "unstructured", "hybrid".
+// "brute-force", "hierarchical", "unstructured", "hybrid", "lod", "subsample".
 std::string_view name_of(Mode mode);
 std::optional<Mode> mode_named(std::string_view name);
+// All of them, separated by commas.
+std::string mode_names();
 // What the mode draws from: all points in memory, or an octree, which may stay on disk.
 DatasetNeeds needs_of(Mode mode);
 

@@ -1,7 +1,6 @@
 #include "render/method/tree_clusters.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace stipple {
@@ -15,16 +14,6 @@ constexpr std::uint64_t kUploadShare = 2;
 constexpr std::uint64_t kAheadShare = 4;
 constexpr std::uint64_t kLeastPoints = 65'536;  // of a frame's uploads
 
-std::uint64_t key_of(std::uint32_t node, std::uint32_t first) {
-  return std::uint64_t{node} << 32 | first;
-}
-std::uint32_t node_of(std::uint64_t key) {
-  return static_cast<std::uint32_t>(key >> 32);
-}
-std::uint32_t first_of(std::uint64_t key) {
-  return static_cast<std::uint32_t>(key);
-}
-
 }  // namespace
 
 TreeClusters::TreeClusters(std::shared_ptr<const TreeStore> store, const ColorMap& colors, std::uint64_t bytes_before,
@@ -36,7 +25,6 @@ TreeClusters::TreeClusters(std::shared_ptr<const TreeStore> store, const ColorMa
       points_ahead_(room.points_ahead) {}
 
 void TreeClusters::start_view(const View& view) {
-  view_ = view;
   ++view_number_;
   for (const PartReader::Request& request : reader_.cancel()) loading_.erase(request.key);
   wanted_.clear();
@@ -50,10 +38,10 @@ void TreeClusters::start_view(const View& view) {
 void TreeClusters::want(const std::vector<VisibleCluster>& clusters) {
   for (const VisibleCluster& cluster : clusters) {
     const TreeSupply::Part& part = supply_.part(cluster.handle);
-    const double urgency = urgency_of(supply_.node(part.node), cluster.distance);
+    const double urgency = supply_.projected_spacing(part.node, cluster.distance);
     const std::uint32_t step = store_->reads_parts() ? kLargestPart : cluster.count;
     for (std::uint32_t at = 0; at < cluster.count; at += step)
-      want(key_of(part.node, part.first + at), part, std::min(step, cluster.count - at), urgency);
+      want(part_key(part.node, part.first + at), part, std::min(step, cluster.count - at), urgency);
   }
   std::stable_sort(wanted_.begin() + static_cast<std::ptrdiff_t>(next_), wanted_.end(),
                    [](const Wanted& a, const Wanted& b) { return a.urgency > b.urgency; });
@@ -71,13 +59,6 @@ void TreeClusters::want(Key key, const TreeSupply::Part& part, std::uint32_t cou
     loading->second = urgency;
   else
     wanted_.push_back({key, urgency, count, part.box});
-}
-
-// Trees that do not say how far the root's points are apart are taken to have 128 along its edge, as Potree does.
-double TreeClusters::urgency_of(const StoredNode& node, double distance) const {
-  const TreeInfo& info = store_->info();
-  const double root_spacing = info.spacing > 0.0 ? info.spacing : info.cube.edge / 128.0;
-  return std::ldexp(root_spacing, -node.level) / std::max(distance, view_.near);
 }
 
 void TreeClusters::load(std::uint32_t budget, ClusterSelector& selector) {

@@ -42,12 +42,12 @@ class TreeClusters final : public ClusterSource {
   void count(SelectionCounts& counts) const override { counts.bytes_read = supply_.bytes_read(); }
 
  private:
-  using Key = std::uint64_t;  // node and first point
+  using Key = PartKey;
 
   // A part in sight that is not on the GPU.
   struct Wanted {
     Key key;
-    double urgency;  // points' distance over their distance from the eye
+    double urgency;  // TreeSupply::projected_spacing()
     std::uint32_t count;
     GridBox box;
   };
@@ -70,7 +70,6 @@ class TreeClusters final : public ClusterSource {
   bool idle() const;
   void want(const std::vector<VisibleCluster>& clusters);
   void want(Key key, const TreeSupply::Part& part, std::uint32_t count, double urgency);
-  double urgency_of(const StoredNode& node, double distance) const;
   void request(std::uint64_t points, ClusterSelector& selector);
   void receive(bool patient);
   void fail(const PartReader::Request& request, const std::exception_ptr& failure);
@@ -84,7 +83,6 @@ class TreeClusters final : public ClusterSource {
   PartReader reader_;
   ClusterPool pool_;
   std::uint64_t points_ahead_;
-  View view_{};
   std::uint64_t view_number_ = 0;
   std::vector<Wanted> wanted_;               // of this view, the most urgent first
   std::size_t next_ = 0;                     // of them to be requested

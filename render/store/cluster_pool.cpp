@@ -15,23 +15,33 @@ std::uint32_t place_of(std::uint32_t slot) {
   return slot / kChunkSlots << ClusterTable::kPlaceBits | slot % kChunkSlots * kPoints;
 }
 
+// So many points that a cluster never has more than a slot: cut_clusters() makes as many clusters as this goes into all
+// of them, rounded, all of the same size but for one point.
+std::uint64_t points_of_a_cluster(std::uint64_t points) {
+  return points / ((points + kPoints - 1) / kPoints);
+}
+
 }  // namespace
+
+std::uint32_t SlottedPoints::slots_for(std::uint64_t points) {
+  if (points == 0) return 0;
+  const std::uint64_t each = points_of_a_cluster(points);
+  return static_cast<std::uint32_t>((points + each / 2) / each);
+}
 
 SlottedPoints slotted(const Grid& grid, std::span<const PackedPoint> points, std::uint32_t first_id, double root_edge) {
   GridBox bounds;
   for (const PackedPoint& point : points) bounds.extend(point.position);
   SlottedPoints result;
   if (points.empty()) return result;
-  // As many as need be, none of more than a slot
-  const std::size_t slots = (points.size() + kPoints - 1) / kPoints;
-  ClusterCut cut = cut_clusters(grid, bounds, points, points.size() / slots, root_edge);
+  ClusterCut cut = cut_clusters(grid, bounds, points, points_of_a_cluster(points.size()), root_edge);
   result.points.resize(cut.clusters.size() * kPoints);
   result.ids.resize(result.points.size());
   result.log_pixels = std::move(cut.log_pixels);
   for (const ClusterCut::Piece& cluster : cut.clusters) {
     const std::size_t to = result.rows.size() * kPoints;
-    for (std::size_t i = 0; i < cluster.count; ++i) {
-      const std::uint32_t from = cut.order[cluster.first + i];
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      const std::uint32_t from = cut.order[cluster.first + std::min<std::size_t>(i, cluster.count - 1)];
       result.points[to + i] = points[from];
       result.ids[to + i] = first_id + from;
     }
@@ -125,6 +135,11 @@ void ClusterPool::free(std::span<const ClusterRun> runs) {
     }
     free_[joined.first] = joined.count;
   }
+}
+
+void ClusterPool::append_items(const ClusterRun& run, std::vector<DrawItem>& items) const {
+  const ClusterTable::Chunk& chunk = table_.chunks[run.first / kChunkSlots];
+  items.push_back(PointRange{&chunk.points, &chunk.ids, run.first % kChunkSlots * kPoints, run.count * kPoints});
 }
 
 }  // namespace stipple

@@ -8,11 +8,13 @@
 
 #include "octree/core/buffer.h"
 #include "render/frame/point_set.h"
+#include "render/raster/rasterizer.h"
 #include "render/store/cluster_table.h"
 
 namespace stipple {
 
-// Points cut into clusters, each in a slot of its own: slot s has points [s * kPoints, s * kPoints + rows[s].count).
+// Points cut into clusters, each in a slot of its own: slot s has points [s * kPoints, s * kPoints + rows[s].count);
+// the last of them is repeated to its end, so that slots may be drawn whole.
 struct SlottedPoints {
   static constexpr std::uint32_t kPoints = 128;  // of a slot: docs/decisions/0011-hybrid.md
 
@@ -22,6 +24,8 @@ struct SlottedPoints {
   std::vector<float> log_pixels;        // ClusterTable::kLevels a slot
 
   std::uint32_t slots() const { return static_cast<std::uint32_t>(rows.size()); }
+  // How many so many points take.
+  static std::uint32_t slots_for(std::uint64_t points);
 };
 
 // Point i has id first_id + i. `root_edge`: see cut_clusters().
@@ -44,6 +48,9 @@ class ClusterPool {
   // can be. Throws Error when memory is refused.
   std::vector<ClusterRun> put(const SlottedPoints& points, std::uint32_t first, std::uint32_t count);
   void free(std::span<const ClusterRun> runs);
+
+  // Appends the item that draws a run put() gave.
+  void append_items(const ClusterRun& run, std::vector<DrawItem>& items) const;
 
  private:
   ClusterRun take(std::uint32_t count);

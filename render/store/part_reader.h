@@ -16,10 +16,22 @@
 
 namespace stipple {
 
+// A part of a node in a number: what the caller knows the node by, and the part's first point.
+using PartKey = std::uint64_t;
+inline PartKey part_key(std::uint32_t node, std::uint32_t first) {
+  return PartKey{node} << 32 | first;
+}
+inline std::uint32_t node_of(PartKey key) {
+  return static_cast<std::uint32_t>(key >> 32);
+}
+inline std::uint32_t first_of(PartKey key) {
+  return static_cast<std::uint32_t>(key);
+}
+
 class PartReader {
  public:
   struct Request {
-    std::uint64_t key = 0;  // the caller's own
+    PartKey key = 0;
     StoredNode node;
     std::uint32_t first = 0;  // point of the node
     std::uint32_t count = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "octree/core/error.h"
@@ -145,6 +146,13 @@ void TreeSupply::append_clusters(const KnownTree::Sight& sight, std::vector<Visi
     append(cluster.first, cluster.count, cluster.box,
            estimated_pixels(cluster.profile, info.cube.edge, nearest_pixel_size(view_, box)));
   }
+}
+
+// Trees that do not say how far the root's points are apart are taken to have 128 along its edge, as Potree does.
+double TreeSupply::projected_spacing(std::uint32_t node, double distance) const {
+  const TreeInfo& info = store_->info();
+  const double root_spacing = info.spacing > 0.0 ? info.spacing : info.cube.edge / 128.0;
+  return std::ldexp(root_spacing, -tree_.node(node).level) / std::max(distance, view_.near);
 }
 
 void TreeSupply::request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) {

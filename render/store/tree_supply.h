@@ -47,6 +47,9 @@ class TreeSupply final : public PointSupply {
   const Part& part(std::uint32_t handle) const { return parts_[handle]; }
   const StoredNode& node(std::uint32_t number) const { return tree_.node(number); }
 
+  // How far apart points of a node are on the screen at this distance from the eye: spacing over distance.
+  double projected_spacing(std::uint32_t node, double distance) const;
+
   // Pieces of the hierarchy that were read after the first.
   std::uint64_t pieces_read() const { return tree_.pieces(); }
 

@@ -30,8 +30,10 @@ constexpr const char* kReference = "reference";
 struct Options {
   std::vector<std::string> inputs;
   std::string output;
-  std::string mode = "unstructured";
+  std::string mode = "hybrid";
   std::string camera;
+  std::string view;
+  std::optional<double> time;
   std::string eye;
   std::string target;
   std::string up = "0,0,1";
@@ -50,13 +52,25 @@ struct Picture {
   Json stats;
 };
 
+// The one called --view, or the only one there is.
+template <class Named>
+const Named& chosen(const std::vector<Named>& all, const Options& options, const char* kind) {
+  if (options.view.empty()) {
+    if (all.size() > 1)
+      throw UsageError(fmt::format("--camera {}: holds {} {}s; a picture is taken from one, which --view names",
+                                   options.camera, all.size(), kind));
+    return all.front();
+  }
+  const auto found = std::ranges::find(all, options.view, &Named::name);
+  if (found == all.end())
+    throw UsageError(fmt::format("--view {}: {} has no {} of that name", options.view, options.camera, kind));
+  return *found;
+}
+
 Camera camera_of(const Options& options, const Dataset& dataset, double aspect) {
   if (!options.camera.empty()) {
-    const std::vector<NamedCamera> cameras = read_cameras(options.camera);
-    if (cameras.size() > 1)
-      throw UsageError(
-          fmt::format("--camera {}: holds {} views; a picture is taken from one", options.camera, cameras.size()));
-    return cameras.front().camera;
+    if (options.time) return camera_at(chosen(read_paths(options.camera), options, "path"), *options.time);
+    return chosen(read_cameras(options.camera), options, "view").camera;
   }
   if (options.eye.empty()) return propose_cameras(dataset.overview(), aspect).front().camera;
   return {.eye = parse_vector("--eye", options.eye),
@@ -127,8 +141,7 @@ void run(const Options& options) {
   // Check what can be checked before the points are read
   const std::optional<Mode> mode = mode_named(options.mode);
   if (!mode && options.mode != kReference)
-    throw UsageError(
-        fmt::format("--mode {}: expected reference, brute-force, hierarchical, unstructured or hybrid", options.mode));
+    throw UsageError(fmt::format("--mode {}: expected reference, {}", options.mode, mode_names()));
   const glm::ivec2 size = parse_size("--size", options.draw.size);
   const double point_size = parse_positive("--point-size", options.draw.point_size);
   const std::uint32_t background = parse_color("--background", options.draw.background);
@@ -189,14 +202,23 @@ void add_render_command(CLI::App& app) {
   command->add_option("-o,--output", options->output, "PNG file to write; settings and results travel in its text.")
       ->required();
   command
-      ->add_option("--mode", options->mode,
-                   "Method: reference (all points, double precision, CPU), brute-force (all points each frame), "
-                   "hierarchical (Tredinnick and others 2016), unstructured (Schuetz and others 2019) or hybrid (ours: "
-                   "clusters of an octree by what the last frame shows).")
+      ->add_option(
+          "--mode", options->mode,
+          "Method: reference (all points, double precision, CPU), brute-force (all points each frame), "
+          "hierarchical (Tredinnick and others 2016), unstructured (Schuetz and others 2019), hybrid (ours: clusters "
+          "by what the last frame shows), lod (octree nodes by the distance of their points on the screen, as "
+          "many as the budget holds, drawn anew each frame) or subsample (a random subset for a new view, "
+          "more of it while the view stands still).")
       ->capture_default_str();
   add_draw_options(*command, options->draw);
-  CLI::Option* camera = command->add_option("--camera", options->camera,
-                                            R"(JSON file with "eye" and "target", and optionally "up" and "fov_deg".)");
+  CLI::Option* camera =
+      command->add_option("--camera", options->camera,
+                          R"(JSON file with "eye" and "target", and optionally "up" and "fov_deg"; or with such )"
+                          R"(objects as "views", or as "cameras" with a "time" in "paths".)");
+  command->add_option("--view", options->view, "Which view or path of that file, by its name, where it has several.")
+      ->needs(camera);
+  command->add_option("--time", options->time, "Seconds on the time of a path in that file: where it is then.")
+      ->needs(camera);
   CLI::Option* eye = command->add_option("--eye", options->eye, "Place of the eye as x,y,z in world coordinates.");
   CLI::Option* target = command->add_option("--target", options->target, "Place the eye looks at, as x,y,z.");
   eye->needs(target)->excludes(camera);

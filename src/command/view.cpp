@@ -35,9 +35,7 @@ ViewerOptions viewer_options(const Options& options) {
   viewer.color = options.draw.color;
   if (!options.mode.empty()) {
     viewer.mode = mode_named(options.mode);
-    if (!viewer.mode)
-      throw UsageError(
-          fmt::format("--mode {}: expected brute-force, hierarchical, unstructured or hybrid", options.mode));
+    if (!viewer.mode) throw UsageError(fmt::format("--mode {}: expected {}", options.mode, mode_names()));
   }
   viewer.method = method_options_of(options.draw);
   if (options.draw.memory.empty())
@@ -55,13 +53,37 @@ ViewerOptions viewer_options(const Options& options) {
   return viewer;
 }
 
-void run(const Options& options) {
-  const ViewerOptions viewer_settings = viewer_options(options);
+// What the command line leaves open is as it was last time.
+void take_settings(ViewerOptions& viewer, const CLI::App& command) {
+  const ViewerSettings settings = read_settings(settings_path());
+  const auto open = [&](const char* name) { return command.get_option(name)->count() == 0; };
+  if (open("--background")) viewer.background = settings.background;
+  if (open("--point-size")) viewer.point_size = settings.point_size;
+  if (open("--fps") && open("--budget")) viewer.policy.frames_per_second = settings.frames_per_second;
+  viewer.panel_shown = settings.panel_shown;
+  viewer.recent = read_recent(recent_path());
+}
+
+void keep_settings(const Viewer& viewer) {
+  try {
+    write_settings(settings_path(), viewer.settings());
+    write_recent(recent_path(), viewer.recent());
+  } catch (const Error& e) {
+    warn(e.what());
+  }
+}
+
+void run(const Options& options, const CLI::App& command) {
+  ViewerOptions settings = viewer_options(options);
   const glm::ivec2 size = parse_size("--size", options.draw.size);
   for (const std::string& input : options.inputs)
     if (!std::filesystem::exists(input)) throw Error(fmt::format("{}: there is no such file or folder", input));
+  // What scripts picture depends on nothing but the command line
+  if (!options.exit_after_screenshot) take_settings(settings, command);
   Window window({.size = size});
-  Viewer(window, viewer_settings).run();
+  Viewer viewer(window, settings);
+  viewer.run();
+  if (!options.exit_after_screenshot) keep_settings(viewer);
 }
 
 }  // namespace
@@ -73,7 +95,7 @@ void add_view_command(CLI::App& app) {
                       "Point clouds to open: files, folders of files, octrees; together one cloud. Without any, drop "
                       "them on the window.");
   command->add_option("--mode", options->mode,
-                      "Method to begin with: unstructured, hierarchical, hybrid or brute-force. Default: hierarchical "
+                      "Method to begin with, as `stipple render` knows them but for reference. Default: hierarchical "
                       "for an octree on disk, of which it reads what the view asks for; hybrid for all else.");
   add_draw_options(*command, options->draw);
   CLI::Option* budget = command->get_option("--budget");
@@ -89,9 +111,9 @@ void add_view_command(CLI::App& app) {
                   "to {} frames a second unless --fps or --budget say otherwise.\n\n"
                   "Example:\n  stipple view scan.laz",
                   kFramesPerSecond));
-  command->callback([options, budget] {
+  command->callback([options, command, budget] {
     if (options->draw.fps.empty() && budget->count() == 0) options->draw.fps = kFramesPerSecond;
-    run(*options);
+    run(*options, *command);
   });
 }
 

@@ -22,32 +22,44 @@ std::uint32_t largest_budget(const BudgetPolicy& policy) {
   return policy.frames_per_second ? BudgetController::Limits{}.most : policy.points;
 }
 
+TimedDrawing::TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& policy, const glm::ivec2& size)
+    : renderer_(renderer), policy_(policy) {
+  if (policy.frames_per_second)
+    controller_.emplace(1000.0 / *policy.frames_per_second, kFirstBudget, BudgetController::Limits{});
+  renderer.warm_up(size);
+}
+
+const FrameState& TimedDrawing::draw(const View& view) {
+  using Clock = std::chrono::steady_clock;
+  ++state_.frame;
+  state_.budget = controller_ ? controller_->budget() : policy_.points;
+  const auto start = Clock::now();
+  const FrameReport report = renderer_.draw(view, state_.budget);
+  glFinish();
+  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  if (controller_) controller_->frame_done(report.points_filled, ms);
+
+  state_.milliseconds += ms;
+  state_.points_drawn += report.points_filled;
+  state_.points_reprojected += renderer_.points_reprojected();
+  state_.covered_pixels = renderer_.covered_pixels();
+  state_.converged = report.converged;
+  return state_;
+}
+
+FrameState draw_until(TimedDrawing& drawing, const View& view, const Until& until,
+                      const std::function<void(const FrameState&)>& observe) {
+  while (true) {
+    const FrameState& state = drawing.draw(view);
+    if (observe) observe(state);
+    if (over(until, state)) return state;
+  }
+}
+
 FrameState run_view(ProgressiveRenderer& renderer, const View& view, const BudgetPolicy& policy, const Until& until,
                     const std::function<void(const FrameState&)>& observe) {
-  using Clock = std::chrono::steady_clock;
-  std::optional<BudgetController> controller;
-  if (policy.frames_per_second)
-    controller.emplace(1000.0 / *policy.frames_per_second, kFirstBudget, BudgetController::Limits{});
-
-  renderer.warm_up(view.size);
-  FrameState state;
-  do {
-    ++state.frame;
-    state.budget = controller ? controller->budget() : policy.points;
-    const auto start = Clock::now();
-    const FrameReport report = renderer.draw(view, state.budget);
-    glFinish();
-    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    if (controller) controller->frame_done(report.points_filled, ms);
-
-    state.milliseconds += ms;
-    state.points_drawn += report.points_filled;
-    state.points_reprojected += renderer.points_reprojected();
-    state.covered_pixels = renderer.covered_pixels();
-    state.converged = report.converged;
-    if (observe) observe(state);
-  } while (!over(until, state));
-  return state;
+  TimedDrawing drawing(renderer, policy, view.size);
+  return draw_until(drawing, view, until, observe);
 }
 
 }  // namespace stipple

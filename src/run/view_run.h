@@ -1,4 +1,4 @@
-// One method drawing one view from nothing, frame by frame, with a clock.
+// One method drawing, frame by frame, with a clock.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,29 @@ struct FrameState {
   bool converged = false;
 };
 
-// Draws until `until`; at least one frame. The renderer is warmed up first, outside the clock. `observe` is called
-// after each frame, outside the clock, and may read the renderer.
+// A renderer that draws whatever view comes next, each frame timed.
+class TimedDrawing {
+ public:
+  // `renderer` must outlive this. It is warmed up for frames of `size` first, outside the clock.
+  TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& policy, const glm::ivec2& size);
+
+  const FrameState& draw(const View& view);
+  // The next frame is the first: sums begin anew. What is drawn stays, and so does what a frame-rate target has learnt.
+  void start_again() { state_ = {}; }
+
+ private:
+  ProgressiveRenderer& renderer_;
+  BudgetPolicy policy_;
+  std::optional<BudgetController> controller_;
+  FrameState state_;
+};
+
+// Draws until `until`; at least one frame. `observe` is called after each frame, outside the clock, and may read the
+// renderer.
+FrameState draw_until(TimedDrawing& drawing, const View& view, const Until& until,
+                      const std::function<void(const FrameState&)>& observe = {});
+
+// The same from nothing.
 FrameState run_view(ProgressiveRenderer& renderer, const View& view, const BudgetPolicy& policy, const Until& until,
                     const std::function<void(const FrameState&)>& observe = {});
 

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 
-#include "render/measure/percentile.h"
 #include "render/measure/psnr.h"
-#include "src/run/median.h"
 
 namespace stipple {
 namespace {
@@ -31,52 +28,25 @@ std::string csv_field(const std::optional<double>& value) {
   return value ? fmt::format("{:.6f}", *value) : "";
 }
 
-Json json_of(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
+// The work of a frame alone, where the state has sums.
+struct FrameWork {
+  std::uint64_t streamed;     // S of Tredinnick and others 2016
+  std::uint64_t reprojected;  // R
+};
 
-// Over the repeats: null when any of them did not get there.
-Json reached_json(std::span<const Curve> repeats, const std::function<std::optional<Reached>(const Curve&)>& reach) {
-  std::vector<double> times;
-  std::vector<double> points;
-  for (const Curve& curve : repeats) {
-    const std::optional<Reached> reached = reach(curve);
-    if (!reached) return nullptr;
-    times.push_back(reached->milliseconds);
-    points.push_back(static_cast<double>(reached->points_drawn));
-  }
-  return {{"points", static_cast<std::uint64_t>(median(points))},
-          {"ms_median", median(times)},
-          {"ms_min", std::ranges::min(times)},
-          {"ms_max", std::ranges::max(times)},
-          {"ssim", json_of(reach(repeats.front())->ssim)},
-          {"flip", json_of(reach(repeats.front())->flip)}};
-}
-
-// Percentiles over the frames of all repeats.
-Json frame_times_json(std::span<const Curve> repeats) {
-  std::vector<double> times;
-  for (const Curve& curve : repeats) {
-    double before = 0.0;
-    for (const CurvePoint& point : curve.points) {
-      times.push_back(point.state.milliseconds - before);
-      before = point.state.milliseconds;
-    }
-  }
-  return {{"p50", percentile(times, 50.0)}, {"p95", percentile(times, 95.0)}, {"p99", percentile(times, 99.0)}};
-}
-
-std::string csv_line(const Curve& curve, const CurvePoint& point) {
+std::string csv_line(const Curve& curve, const CurvePoint& point, const FrameWork& work) {
   const FrameState& state = point.state;
   const FrameRates& rates = point.rates;
   return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{:.3f},{},{:.9g},{:.6f},{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6g},"
-      "{:.6g},{},{}\n",
-      csv_field(curve.dataset), csv_field(curve.view), curve.mode, curve.raster, curve.repeat, state.frame,
-      state.budget, state.points_drawn, state.points_reprojected, state.milliseconds, state.covered_pixels, point.mse,
-      psnr_db(point.mse), psnr_db(point.covered_mse), csv_field(point.ssim), csv_field(point.flip), rates.hole,
-      rates.see_through, rates.ghost, rates.wrong_point, rates.depth_error_mean, rates.depth_error_p95,
-      point.identical ? 1 : 0, state.converged ? 1 : 0);
+      "{},{},{},{},{},{},{},{},{},{},{},1,{},{},{},{:.9g},{:.6f},{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6g},"
+      "{:.6g},{:.9g},{:.9g},{:.9g},{},{},{},{}\n",
+      csv_field(curve.dataset), curve.regime, csv_field(curve.view), curve.mode, curve.raster, curve.repeat,
+      state.frame, state.budget, state.points_drawn, state.points_reprojected,
+      curve.timed ? fmt::format("{:.3f}", state.milliseconds) : "", work.reprojected, work.streamed,
+      state.covered_pixels, point.mse, psnr_db(point.mse), psnr_db(point.covered_mse), csv_field(point.ssim),
+      csv_field(point.flip), rates.hole, rates.see_through, rates.ghost, rates.wrong_point, rates.depth_error_mean,
+      rates.depth_error_p95, point.parts.rounding, point.parts.selection, point.parts.carry, csv_field(point.reuse),
+      csv_field(point.flicker), point.identical ? 1 : 0, state.converged ? 1 : 0);
 }
 
 }  // namespace
@@ -98,44 +68,19 @@ bool QualityMarks::passes(double db) {
 
 std::string curves_csv(std::span<const Curve> curves) {
   std::string csv =
-      "dataset,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,covered_pixels,mse,psnr_db,"
-      "psnr_covered_db,ssim,flip,hole,see_through,ghost,wrong_point,depth_error_mean,depth_error_p95,identical,"
-      "converged\n";
-  for (const Curve& curve : curves)
-    for (const CurvePoint& point : curve.points) csv += csv_line(curve, point);
+      "dataset,regime,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,V,R,S,covered_pixels,mse,"
+      "psnr_db,psnr_covered_db,ssim,flip,hole,see_through,ghost,wrong_point,depth_error_mean,depth_error_p95,"
+      "mse_rounding,mse_selection,mse_carry,reuse,flicker,identical,converged\n";
+  for (const Curve& curve : curves) {
+    FrameState before;
+    for (const CurvePoint& point : curve.points) {
+      csv += csv_line(
+          curve, point,
+          {point.state.points_drawn - before.points_drawn, point.state.points_reprojected - before.points_reprojected});
+      before = point.state;
+    }
+  }
   return csv;
-}
-
-Json summary_json(std::span<const Curve> repeats) {
-  const Curve& first = repeats.front();
-  Json reached;
-  for (const double quality : kQualities)
-    reached[fmt::format("{:.0f}_db", quality)] =
-        reached_json(repeats, [quality](const Curve& curve) { return reaches(curve, quality); });
-  reached["identical"] = reached_json(repeats, reaches_identical);
-  const CurvePoint& last = first.points.back();
-  return {{"dataset", first.dataset},
-          {"view", first.view},
-          {"mode", first.mode},
-          {"raster", first.raster},
-          {"repeats", repeats.size()},
-          {"frames", last.state.frame},
-          {"points_drawn", last.state.points_drawn},
-          {"covered_pixels", last.state.covered_pixels},
-          {"frame_ms", frame_times_json(repeats)},
-          {"psnr_db", json_of_any(psnr_db(last.mse))},
-          {"psnr_covered_db", json_of_any(psnr_db(last.covered_mse))},
-          {"ssim", json_of(last.ssim)},
-          {"flip", json_of(last.flip)},
-          {"hole", last.rates.hole},
-          {"see_through", last.rates.see_through},
-          {"ghost", last.rates.ghost},
-          {"wrong_point", last.rates.wrong_point},
-          {"depth_error_mean", last.rates.depth_error_mean},
-          {"depth_error_p95", last.rates.depth_error_p95},
-          {"converged", last.state.converged},
-          {"identical_to_brute_force", last.identical},
-          {"reached", reached}};
 }
 
 }  // namespace stipple

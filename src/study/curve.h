@@ -1,4 +1,4 @@
-// Quality against work: one method drawing one view from nothing.
+// Quality against work: one method drawing one view or path.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "render/measure/error_parts.h"
 #include "render/measure/frame_rates.h"
-#include "src/json/json.h"
 #include "src/run/view_run.h"
 
 namespace stipple {
@@ -21,16 +21,28 @@ struct CurvePoint {
   std::optional<double> ssim;
   std::optional<double> flip;  // where it was measured
   FrameRates rates;
-  bool identical = false;  // to the brute-force picture of the same rasterizer, in every pixel and id
+  bool identical = false;         // to the brute-force picture of the same rasterizer, in every pixel and id
+  ErrorParts parts;               // of mse
+  std::optional<double> reuse;    // share of the covered pixels whose point the frame before showed
+  std::optional<double> flicker;  // against the frame before
+};
+
+// A frame that was kept as a picture.
+struct KeptFrame {
+  std::uint64_t frame = 0;
+  std::string file;  // below the study's folder
 };
 
 struct Curve {
   std::string dataset;
-  std::string view;
+  std::string view;  // or path
   std::string mode;
   std::string raster;
   int repeat = 0;
   std::vector<CurvePoint> points;
+  std::string regime = "cold";
+  bool timed = true;  // or nobody looked at the clock: milliseconds mean nothing
+  std::vector<KeptFrame> kept{};
 };
 
 // The work after which a curve first reaches a quality.
@@ -63,9 +75,5 @@ class QualityMarks {
 // A header line, then a line a frame; docs/study.md says what the columns are. psnr_db is inf when identical to the
 // reference; what was not measured is empty.
 std::string curves_csv(std::span<const Curve> curves);
-
-// Of the repeats of one mode and view: work to each quality (medians, and the spread of the times), frame times, the
-// quality of the last frame and whether it ended identical to brute force; see docs/study.md.
-Json summary_json(std::span<const Curve> repeats);
 
 }  // namespace stipple

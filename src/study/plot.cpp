@@ -22,8 +22,14 @@ constexpr double kGapX = 70.0;
 constexpr double kGapY = 84.0;
 constexpr double kLegendHeight = 34.0;
 
-// Told apart by colour-blind eyes too (Okabe and Ito 2008).
-constexpr std::array kColors{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
+// Told apart by colour-blind eyes too (Okabe and Ito 2008). Each mode has its own, here and in the report.
+const char* color_of(const std::string& mode) {
+  if (mode == "brute-force") return "#5D6670";
+  if (mode == "hierarchical") return "#0072B2";
+  if (mode == "unstructured") return "#D55E00";
+  if (mode == "hybrid") return "#009E73";
+  return "#CC79A7";
+}
 
 struct Axis {
   double low = 0.0;
@@ -74,13 +80,13 @@ double ms_of(const FrameState& state) {
   return state.milliseconds;
 }
 
-// Rows of the figure: consecutive curves of one dataset and view.
+// Rows of the figure: consecutive curves of one dataset, view and regime.
 std::vector<std::span<const Curve>> rows_of(std::span<const Curve> curves) {
   std::vector<std::span<const Curve>> rows;
   for (std::size_t first = 0; first < curves.size();) {
     std::size_t end = first;
     while (end < curves.size() && curves[end].dataset == curves[first].dataset &&
-           curves[end].view == curves[first].view)
+           curves[end].view == curves[first].view && curves[end].regime == curves[first].regime)
       ++end;
     rows.push_back(curves.subspan(first, end - first));
     first = end;
@@ -184,23 +190,22 @@ std::string plot_svg(std::span<const Curve> curves) {
         "<line x1='{0}' x2='{1}' y1='20' y2='20' stroke='{2}' stroke-width='3'/>"
         "<text x='{3}' y='24' class='name'>{4}</text>\n",
         kMarginLeft + 150.0 * static_cast<double>(m), kMarginLeft + 150.0 * static_cast<double>(m) + 24,
-        kColors[m % kColors.size()], kMarginLeft + 150.0 * static_cast<double>(m) + 30, modes[m]);
+        color_of(modes[m]), kMarginLeft + 150.0 * static_cast<double>(m) + 30, modes[m]);
   svg += fmt::format("<text x='{}' y='24' class='name' text-anchor='end'>ringed: equal to brute force</text>\n",
                      width - 24);
 
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const double top = kLegendHeight + kMarginTop + static_cast<double>(r) * (kPanelHeight + kGapY);
     const Axis psnr = psnr_axis(rows[r]);
-    const std::string title = rows[r].front().dataset + ", " + rows[r].front().view;
+    const Curve& first = rows[r].front();
+    const std::string title =
+        first.dataset + ", " + first.view + (first.regime == "cold" ? "" : " (" + first.regime + ")");
     const std::array<std::pair<Work, const char*>, 2> clocks{{{points_of, "points drawn"}, {ms_of, "milliseconds"}}};
-    for (std::size_t c = 0; c < clocks.size(); ++c) {
+    for (std::size_t c = 0; c < (first.timed ? clocks.size() : 1); ++c) {
       Panel panel(svg, kMarginLeft + static_cast<double>(c) * (kPanelWidth + kGapX), top,
                   work_axis(rows[r], clocks[c].first), psnr);
       panel.draw_frame(clocks[c].second, c == 0 ? title : "");
-      for (const Curve& curve : rows[r]) {
-        const auto m = static_cast<std::size_t>(std::ranges::find(modes, curve.mode) - modes.begin());
-        panel.draw_curve(curve, clocks[c].first, kColors[m % kColors.size()]);
-      }
+      for (const Curve& curve : rows[r]) panel.draw_curve(curve, clocks[c].first, color_of(curve.mode));
     }
   }
   return svg + "</svg>\n";

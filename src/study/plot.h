@@ -8,9 +8,9 @@
 
 namespace stipple {
 
-// An SVG document: a row for each dataset and view, on the left PSNR against points drawn, on the right against
-// milliseconds, a line for each mode and repeat. Frames identical to the reference stand on the upper edge, those that
-// equal brute force are ringed.
+// An SVG document: a row for each dataset, view and regime, on the left PSNR against points drawn, on the right, where
+// there was a clock, against milliseconds, a line for each mode and repeat. Frames identical to the reference stand on
+// the upper edge, those that equal brute force are ringed.
 std::string plot_svg(std::span<const Curve> curves);
 
 }  // namespace stipple

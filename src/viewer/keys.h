@@ -13,6 +13,8 @@ enum class Command {
   method_hierarchical,
   method_hybrid,
   method_brute_force,
+  method_lod,
+  method_subsample,
   split,
   blink,
   home,

@@ -57,6 +57,18 @@ void show_work(const WorkStatus& work, PanelWishes& wishes) {
   if (ImGui::Button("cancel")) wishes.commands.push_back(Command::cancel);
 }
 
+void show_recent(const PanelFacts& facts, PanelWishes& wishes) {
+  if (facts.recent.empty()) return;
+  ImGui::TextDisabled("opened before");
+  int number = 0;
+  for (const std::vector<std::string>& inputs : facts.recent) {
+    std::string label = std::filesystem::path(inputs.front()).filename().string();
+    if (inputs.size() > 1) label += fmt::format(" and {} more", inputs.size() - 1);
+    if (ImGui::Selectable(fmt::format("{}##{}", label, number++).c_str())) wishes.open = inputs;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", inputs.front().c_str());
+  }
+}
+
 void show_cloud(const PanelFacts& facts, PanelWishes& wishes) {
   const Stage& stage = facts.stage;
   if (const auto& info = stage.info()) {
@@ -66,6 +78,7 @@ void show_cloud(const PanelFacts& facts, PanelWishes& wishes) {
     text(fmt::format("{} {}, {} points", info->format, info->version, with_thousands(info->point_count)));
   } else if (facts.work.phase == WorkStatus::Phase::idle) {
     wrapped("Drop point clouds on the window: files, folders of files, octrees.");
+    show_recent(facts, wishes);
   }
   show_work(facts.work, wishes);
   if (stage.error().empty()) return;
@@ -75,7 +88,8 @@ void show_cloud(const PanelFacts& facts, PanelWishes& wishes) {
   if (ImGui::Button("dismiss")) wishes.dismiss_error = true;
 }
 
-constexpr std::array kMethods{Mode::unstructured, Mode::hierarchical, Mode::hybrid, Mode::brute_force};
+constexpr std::array kMethods{Mode::unstructured, Mode::hierarchical, Mode::hybrid,
+                              Mode::brute_force,  Mode::lod,          Mode::subsample};
 
 // A column of buttons for each side.
 void show_methods(const PanelFacts& facts, PanelWishes& wishes) {

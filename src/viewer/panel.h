@@ -37,7 +37,8 @@ struct PanelFacts {
   std::optional<int> divider;  // column of the picture, where two sides are seen
   bool right_alone = false;    // of two sides
   const std::optional<std::array<std::string, 3>>& under_cursor;
-  const std::string& note;  // what happened last
+  std::span<const std::vector<std::string>> recent;  // inputs opened before
+  const std::string& note;                           // what happened last
   bool panel_shown = true;
   bool keys_shown = false;
   float scale = 1.0f;
@@ -51,6 +52,7 @@ struct PanelWishes {
   std::optional<double> point_size;
   std::optional<std::uint32_t> background;
   std::optional<BudgetPolicy> policy;
+  std::optional<std::vector<std::string>> open;
   bool dismiss_error = false;
 };
 

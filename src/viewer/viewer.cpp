@@ -142,6 +142,7 @@ void Viewer::take(const finished::Cloud& cloud) {
   home_aspect_ = static_cast<double>(size_.x) / size_.y;
   for (const std::string& warning : cloud.dataset->info.warnings) note_ = warning;
   if (std::exchange(entered_, true)) return;
+  remember(options_.recent, options_.inputs);
   // Who has begun to look around is not moved
   const bool stays = awaited_ && rig_.moved();
   const Camera camera = stays ? rig_.camera() : options_.camera.value_or(cloud.home);
@@ -280,6 +281,10 @@ void Viewer::execute(Command command) {
       return stage_.want(Mode::hybrid, right_meant_ ? Stage::right : Stage::left);
     case Command::method_brute_force:
       return stage_.want(Mode::brute_force, right_meant_ ? Stage::right : Stage::left);
+    case Command::method_lod:
+      return stage_.want(Mode::lod, right_meant_ ? Stage::right : Stage::left);
+    case Command::method_subsample:
+      return stage_.want(Mode::subsample, right_meant_ ? Stage::right : Stage::left);
     case Command::split:
       shown_sides_ = Shown::both;
       return stage_.split(!stage_.is_split());
@@ -308,7 +313,7 @@ void Viewer::execute(Command command) {
     case Command::clear_picks:
       return picks_.clear();
     case Command::panel:
-      panel_shown_ = !panel_shown_;
+      options_.panel_shown = !options_.panel_shown;
       return;
     case Command::keys:
       keys_shown_ = !keys_shown_;
@@ -481,8 +486,9 @@ void Viewer::show_panels() {
                                          .divider = shows_both() ? std::optional(divider_column()) : std::nullopt,
                                          .right_alone = shown_sides_ == Shown::right,
                                          .under_cursor = under_cursor_,
+                                         .recent = options_.recent,
                                          .note = note_,
-                                         .panel_shown = panel_shown_,
+                                         .panel_shown = options_.panel_shown,
                                          .keys_shown = keys_shown_,
                                          .scale = window_.text_scale()});
   gui_.end_frame();
@@ -496,10 +502,18 @@ void Viewer::grant(const PanelWishes& wishes) {
   if (wishes.point_size) set_point_size(*wishes.point_size);
   if (wishes.background) options_.background = *wishes.background;
   if (wishes.policy) set_policy(*wishes.policy);
+  if (wishes.open) open(*wishes.open);
   if (wishes.dismiss_error) stage_.dismiss_error();
 }
 
 // --- What leaves the window
+
+ViewerSettings Viewer::settings() const {
+  return {.background = options_.background,
+          .point_size = options_.point_size,
+          .frames_per_second = options_.policy.frames_per_second.value_or(ViewerSettings{}.frames_per_second),
+          .panel_shown = options_.panel_shown};
+}
 
 Display::Scene Viewer::scene() const {
   Display::Scene scene{.left = stage_.frame(), .background = options_.background};

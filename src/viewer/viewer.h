@@ -17,6 +17,7 @@
 #include "src/viewer/pointer.h"
 #include "src/viewer/resolution.h"
 #include "src/viewer/rig.h"
+#include "src/viewer/settings.h"
 #include "src/viewer/stage.h"
 #include "src/viewer/window.h"
 #include "src/viewer/workshop.h"
@@ -33,8 +34,10 @@ struct ViewerOptions {
   double point_size = 1.0;
   std::uint32_t background = 0x808080;
   std::optional<Camera> camera;  // to begin with; none: sees the whole cloud
-  std::string screenshot;        // taken when nothing is left to draw; empty: none
-  bool with_panels = false;      // pictured as well
+  RecentInputs recent;
+  bool panel_shown = true;
+  std::string screenshot;    // taken when nothing is left to draw; empty: none
+  bool with_panels = false;  // pictured as well
   bool exit_after_screenshot = false;
 };
 
@@ -55,6 +58,10 @@ class Viewer {
   Image picture();
   // What is drawn, panels and all. Between drawing and swapping.
   Image window_picture() const;
+
+  // As they are now.
+  ViewerSettings settings() const;
+  const RecentInputs& recent() const { return options_.recent; }
 
   // For tests and panels
   const Stage& stage() const { return stage_; }
@@ -152,7 +159,6 @@ class Viewer {
   double flown_until_ = -1.0;  // window seconds; below 0: not flying
   std::vector<Pick> picks_;
 
-  bool panel_shown_ = true;
   bool keys_shown_ = false;
   std::string note_;
   std::string screenshot_;  // due

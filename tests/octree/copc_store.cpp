@@ -9,6 +9,7 @@
 #include "octree/store/tree_source.h"
 #include "src/check/check_tree.h"
 #include "tests/read/laz_fixture.h"
+#include "tests/read/shared_catalog.h"
 
 namespace stipple {
 namespace {
@@ -227,9 +228,7 @@ TEST(CopcRobustness, ADamagedFileIsAnErrorOrReadWhole) {
 
 class CopcCatalog : public testing::TestWithParam<const char*> {
  protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(kData / "catalog.tsv")) GTEST_SKIP() << "no shared data at " << kData;
-  }
+  void SetUp() override { SKIP_WITHOUT_CATALOG(); }
   std::string path_ = kData / GetParam();
 };
 

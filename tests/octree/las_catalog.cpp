@@ -1,50 +1,28 @@
 // Every real LAS file of the shared data, where they are there.
 #include <gtest/gtest.h>
 
-#include <charconv>
-#include <sstream>
-
 #include "octree/cloud/cloud.h"
 #include "octree/open/open.h"
 #include "tests/octree/las_fixture.h"
+#include "tests/read/shared_catalog.h"
 
 namespace stipple {
 namespace {
 
+using test::catalog_entries;
+using test::CatalogEntry;
 using test::contains;
 using test::error_of;
 using test::one_that_contains;
 using test::Strings;
 
-const std::filesystem::path kData = STIPPLE_SHARED_DATA;
-
-struct Entry {
-  std::string path;
-  std::string points;  // a number, or a number and a remark
-};
-
-std::vector<Entry> las_entries() {
-  std::vector<Entry> entries;
-  std::ifstream catalog(kData / "catalog.tsv");
-  for (std::string line; std::getline(catalog, line);) {
-    std::istringstream columns(line);
-    std::string path, source, format, points;
-    std::getline(columns, path, '\t');
-    std::getline(columns, source, '\t');
-    std::getline(columns, format, '\t');
-    std::getline(columns, points, '\t');
-    if (format.starts_with("LAS ")) entries.push_back({(kData / path).string(), points});
-  }
-  return entries;
-}
-
 class LasCatalog : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(kData / "catalog.tsv")) GTEST_SKIP() << "no shared data at " << kData;
-  }
+  void SetUp() override { SKIP_WITHOUT_CATALOG(); }
 
-  static std::unique_ptr<PointSource> open(const std::string& path) { return open_source((kData / path).string()); }
+  static std::unique_ptr<PointSource> open(const std::string& path) {
+    return open_source((test::kSharedData / path).string());
+  }
 };
 
 std::size_t read_all(const PointSource& source) {
@@ -55,14 +33,12 @@ std::size_t read_all(const PointSource& source) {
 
 TEST_F(LasCatalog, EveryFileHasThePointsThatTheCatalogSays) {
   std::size_t files = 0;
-  for (const Entry& entry : las_entries()) {
-    std::uint64_t points = 0;
-    const auto [end, error] = std::from_chars(entry.points.data(), entry.points.data() + entry.points.size(), points);
-    if (error != std::errc() || end != entry.points.data() + entry.points.size()) continue;
+  for (const CatalogEntry& entry : catalog_entries({"LAS "})) {
+    if (!entry.count()) continue;
     SCOPED_TRACE(entry.path);
-    const auto source = open_source(entry.path);
-    EXPECT_EQ(source->info().point_count, points);
-    EXPECT_EQ(read_all(*source), points);
+    const auto source = open_source(entry.full_path());
+    EXPECT_EQ(source->info().point_count, entry.count());
+    EXPECT_EQ(read_all(*source), entry.count());
     ++files;
   }
   EXPECT_GT(files, 90u);
@@ -70,9 +46,9 @@ TEST_F(LasCatalog, EveryFileHasThePointsThatTheCatalogSays) {
 
 TEST_F(LasCatalog, EveryOtherFileIsAnErrorWithPathAndByte) {
   std::size_t files = 0;
-  for (const Entry& entry : las_entries()) {
+  for (const CatalogEntry& entry : catalog_entries({"LAS "})) {
     if (entry.points.find("header") == std::string::npos) continue;
-    EXPECT_TRUE(contains(error_of([&] { open_source(entry.path); }), entry.path + ": at byte "));
+    EXPECT_TRUE(contains(error_of([&] { open_source(entry.full_path()); }), entry.full_path() + ": at byte "));
     ++files;
   }
   EXPECT_EQ(files, 3u);

@@ -1,43 +1,24 @@
 // Every EPT and Potree 1 tree of the shared data, where they are there.
 #include <gtest/gtest.h>
 
-#include <charconv>
-#include <sstream>
-
 #include "octree/store/tree_source.h"
 #include "src/check/check_tree.h"
 #include "src/check/compare_points.h"
 #include "tests/octree/node_files.h"
+#include "tests/read/shared_catalog.h"
 
 namespace stipple {
 namespace {
 
 namespace fs = std::filesystem;
+using test::catalog_entries;
+using test::CatalogEntry;
 using test::contains;
 using test::error_of;
+using test::kSharedData;
 
-const fs::path kData = STIPPLE_SHARED_DATA;
-
-struct Entry {
-  std::string path;    // below the shared data
-  std::string format;  // "EPT 1.0.0 laszip LAS 1.2 P1"
-  std::uint64_t points = 0;
-  bool malformed = false;
-};
-
-std::vector<Entry> tree_entries() {
-  std::vector<Entry> entries;
-  std::ifstream catalog(kData / "catalog.tsv");
-  for (std::string line; std::getline(catalog, line);) {
-    std::vector<std::string> columns;
-    std::istringstream stream(line);
-    for (std::string column; std::getline(stream, column, '\t');) columns.push_back(column);
-    if (columns.size() < 9) continue;
-    Entry entry{columns[0], columns[2], 0, columns[8].find("MALFORMED") != std::string::npos};
-    std::from_chars(columns[3].data(), columns[3].data() + columns[3].size(), entry.points);
-    if (entry.format.starts_with("EPT ") || entry.format.starts_with("Potree 1.")) entries.push_back(entry);
-  }
-  return entries;
+bool is_malformed(const CatalogEntry& entry) {
+  return entry.note.find("MALFORMED") != std::string::npos;
 }
 
 std::uint64_t points_in_nodes(const TreeStore& store) {
@@ -48,31 +29,29 @@ std::uint64_t points_in_nodes(const TreeStore& store) {
 
 class NodeFilesCatalog : public testing::Test {
  protected:
-  void SetUp() override {
-    if (!fs::exists(kData / "catalog.tsv")) GTEST_SKIP() << "no shared data at " << kData;
-  }
+  void SetUp() override { SKIP_WITHOUT_CATALOG(); }
 };
 
 TEST_F(NodeFilesCatalog, EveryTreeHasThePointsThatTheCatalogSays) {
   std::size_t trees = 0;
-  for (const Entry& entry : tree_entries()) {
-    if (entry.malformed) continue;
+  for (const CatalogEntry& entry : catalog_entries({"EPT ", "Potree 1."})) {
+    if (is_malformed(entry)) continue;
     SCOPED_TRACE(entry.path);
     ++trees;
-    const auto store = open_tree((kData / entry.path).string());
+    const auto store = open_tree(entry.full_path());
     EXPECT_TRUE(entry.format.starts_with(store->info().source.format + " " + store->info().source.version));
-    EXPECT_EQ(points_in_nodes(*store), entry.points);
+    EXPECT_EQ(points_in_nodes(*store), std::stoull(entry.points));
   }
   EXPECT_GE(trees, 9u);
 }
 
 TEST_F(NodeFilesCatalog, EveryTreeIsWholeAndWithinItsBounds) {
-  for (const Entry& entry : tree_entries()) {
-    if (entry.malformed) continue;
+  for (const CatalogEntry& entry : catalog_entries({"EPT ", "Potree 1."})) {
+    if (is_malformed(entry)) continue;
     SCOPED_TRACE(entry.path);
-    const std::string path = (kData / entry.path).string();
+    const std::string path = entry.full_path();
     const TreeReport report = check_tree(*open_tree(path));
-    EXPECT_EQ(report.points, entry.points);
+    EXPECT_EQ(report.points, std::stoull(entry.points));
     if (entry.path.find("bcbf") != std::string::npos) {
       ASSERT_TRUE(report.defect);
       EXPECT_EQ(report.defect->what, "the metadata state 10 points, and the nodes hold 5");
@@ -98,7 +77,7 @@ TEST_F(NodeFilesCatalog, EveryTreeIsWholeAndWithinItsBounds) {
 }
 
 TEST_F(NodeFilesCatalog, MalformedTreesSayWhatIsWrong) {
-  const std::string ept = (kData / "PDAL+PDAL/ept/").string();
+  const std::string ept = (kSharedData / "PDAL+PDAL/ept/").string();
   const std::string count = error_of([&] { open_source(ept + "bad-pointcount/laszip"); });
   EXPECT_TRUE(contains(count, "ept-data/0-0-0-0.laz: the header states 1065 points, and the 1000 points of node"));
   const std::string missing = error_of([&] { open_source(ept + "ellipsoid-nopoints"); });
@@ -111,8 +90,8 @@ TEST_F(NodeFilesCatalog, MalformedTreesSayWhatIsWrong) {
 void expect_same(const std::string& tree, const std::string& other, std::size_t attributes) {
   SCOPED_TRACE(tree + " and " + other);
   std::vector<std::unique_ptr<PointSource>> others;
-  others.push_back(open_source((kData / other).string()));
-  const Comparison comparison = compare_points(TreeSource(open_tree((kData / tree).string())), others);
+  others.push_back(open_source((kSharedData / other).string()));
+  const Comparison comparison = compare_points(TreeSource(open_tree((kSharedData / tree).string())), others);
   EXPECT_FALSE(comparison.defect) << comparison.defect->what;
   EXPECT_EQ(comparison.largest_rounding, 0.0);
   EXPECT_GE(comparison.compared.size(), attributes);
@@ -127,7 +106,7 @@ TEST_F(NodeFilesCatalog, OneCloudInSeveralFormatsIsOneCloud) {
 // As Zstandard packs them: the catalogue has no such tree.
 TEST_F(NodeFilesCatalog, TheLionPackedByZstandardIsTheLion) {
   const test::ScratchFolder folder;
-  const fs::path lion = kData / "potree+potree/lion_takanawa_ept_bin";
+  const fs::path lion = kSharedData / "potree+potree/lion_takanawa_ept_bin";
   Json metadata = Json::parse(std::ifstream(lion / "ept.json"));
   metadata["dataType"] = "zstandard";
   test::write_bytes(folder.path("ept.json"), test::TreeFiles::bytes_of(metadata));

@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(
         MetadataDefect{"no_cube", [](Json& m) { m["boundingBox"]["max"][0] = 500.0; },
                        "boundingBox: 400 x 1024 x 1024"},
         MetadataDefect{"box_inside_out", [](Json& m) { m["boundingBox"]["max"][0] = 0.0; },
-                       "boundingBox: \"max\" was expected"},
+                       "boundingBox: no maximum was expected to be below"},
         MetadataDefect{"unknown_encoding", [](Json& m) { m["encoding"] = "ZSTD"; }, "encoding: \"ZSTD\" was found"},
         MetadataDefect{"no_attributes", [](Json& m) { m["attributes"] = Json::array(); },
                        "attributes: \"position\", 3 x int32"},

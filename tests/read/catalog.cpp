@@ -1,39 +1,14 @@
 // Every real PLY, PCD, OBJ and text file of the shared data, where they are there.
 #include <map>
-#include <sstream>
 
 #include "tests/read/read_fixture.h"
+#include "tests/read/shared_catalog.h"
 
 namespace stipple::test {
 namespace {
 
-const std::filesystem::path kData = STIPPLE_SHARED_DATA;
-
-struct Entry {
-  std::string path;
-  std::string points;
-};
-
-std::vector<Entry> entries() {
-  std::vector<Entry> found;
-  std::ifstream catalog(kData / "catalog.tsv");
-  for (std::string line; std::getline(catalog, line);) {
-    std::istringstream columns(line);
-    std::string path, source, format, points;
-    std::getline(columns, path, '\t');
-    std::getline(columns, source, '\t');
-    std::getline(columns, format, '\t');
-    std::getline(columns, points, '\t');
-    for (const char* start : {"PLY", "PCD", "OBJ", "XYZ"})
-      if (format.starts_with(start)) found.push_back({path, points});
-  }
-  return found;
-}
-
 // What these have to be refused with.
 const std::map<std::string, std::string> kRefused = {
-    // The header gives each vertex a list, and the rows have none
-    {"assimp+assimp/test/models/PLY/issue623.ply", "line 14: has 6 values, and 7 were expected"},
     // The header breaks off in a property; the 8 points that it states are not there
     {"assimp+assimp/test/models/invalid/crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply",
      "at byte 112: the header ends here"},
@@ -52,25 +27,28 @@ const std::map<std::string, std::uint64_t> kUnlisted = {
     {"PDAL+PDAL/pcd/missingheader.pcd", 10},
 };
 
+std::vector<CatalogEntry> entries() {
+  return catalog_entries({"PLY", "PCD", "OBJ", "XYZ"});
+}
+
 class TableCatalog : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(kData / "catalog.tsv")) GTEST_SKIP() << "no shared data at " << kData;
-  }
-  static Cloud load(const std::string& path) { return load_all(*open_source((kData / path).string())); }
+  void SetUp() override { SKIP_WITHOUT_CATALOG(); }
+  static Cloud load(const std::string& path) { return load_all(*open_source((kSharedData / path).string())); }
 };
 
 TEST_F(TableCatalog, EveryFileHasItsPointsOrIsAnErrorThatNamesThePlace) {
   std::size_t files = 0;
-  for (const auto& [path, points] : entries()) {
+  for (const CatalogEntry& entry : entries()) {
+    const std::string& path = entry.path;
     SCOPED_TRACE(path);
     ++files;
     if (const auto refused = kRefused.find(path); refused != kRefused.end()) {
-      EXPECT_TRUE(contains(error_of([&] { load(path); }), (kData / path).string() + ": " + refused->second));
+      EXPECT_TRUE(contains(error_of([&] { load(path); }), (kSharedData / path).string() + ": " + refused->second));
       continue;
     }
     const auto unlisted = kUnlisted.find(path);
-    const std::uint64_t expected = unlisted != kUnlisted.end() ? unlisted->second : std::stoull(points);
+    const std::uint64_t expected = unlisted != kUnlisted.end() ? unlisted->second : entry.count().value();
     const Cloud cloud = load(path);
     // The catalogue counts points without a position, too
     EXPECT_EQ(cloud.info.point_count + cloud.info.dropped_points, expected);
@@ -80,10 +58,11 @@ TEST_F(TableCatalog, EveryFileHasItsPointsOrIsAnErrorThatNamesThePlace) {
 }
 
 TEST_F(TableCatalog, OnlyTheOrganisedCloudHasHoles) {
-  for (const auto& [path, points] : entries()) {
+  for (const CatalogEntry& entry : entries()) {
+    const std::string& path = entry.path;
     if (kRefused.contains(path)) continue;
     const bool organised = path.ends_with("milk_cartoon_all_small_clorox.pcd");
-    EXPECT_EQ(open_source((kData / path).string())->info().dropped_points, organised ? 65'793u : 0u) << path;
+    EXPECT_EQ(open_source((kSharedData / path).string())->info().dropped_points, organised ? 65'793u : 0u) << path;
   }
 }
 
@@ -122,7 +101,7 @@ TEST_F(TableCatalog, ColorsAreWhatTheirFilesSay) {
   const Cloud odd = load("PDAL+PDAL/ply/text_extradim.ply");
   EXPECT_EQ(values(odd, "rgb"), (std::vector<double>{63 * 257, 200 * 257, 64 * 257}));
   EXPECT_EQ(values(odd, "omg"), std::vector<double>{1234});
-  const auto las = open_source((kData / "PDAL+PDAL/pcd/autzen-utm.pcd").string());
+  const auto las = open_source((kSharedData / "PDAL+PDAL/pcd/autzen-utm.pcd").string());
   EXPECT_TRUE(find_attribute(las->info().schema, "gps-time"));
   EXPECT_TRUE(find_attribute(las->info().schema, "rgb"));
 }

@@ -152,6 +152,18 @@ TEST_F(Ply, ListsOfVerticesAreSkippedExactly) {
   }
 }
 
+TEST_F(Ply, AListThatNoRowHasIsAWarning) {
+  const std::string declarations = vertex(2, "property uchar a\nproperty list uchar uint vertex_indices\n");
+  const Cloud cloud = load(ascii(declarations, "1 2 3 4\n5 6 7 8\n"));
+  EXPECT_EQ(worlds(cloud), (Points{{1, 2, 3}, {5, 6, 7}}));
+  EXPECT_EQ(values(cloud, "a"), (Doubles{4, 8}));
+  EXPECT_TRUE(one_that_contains(cloud.info.warnings, "the list \"vertex_indices\", which the header declares"));
+  // The first row says what all have
+  EXPECT_TRUE(contains(error(ascii(declarations, "1 2 3 4\n5 6 7 8 0\n")), "line 11: has more than the 4 values"));
+  EXPECT_TRUE(contains(error(ascii(declarations, "1 2 3 4 0\n5 6 7 8\n")), "line 11: has 4 values, and 5 were"));
+  EXPECT_TRUE(contains(error(ascii(declarations, "1 2 3\n5 6 7\n")), "line 10: has 3 values, and 5 were"));
+}
+
 TEST_F(Ply, ManyRowsWithListsKeepTheirOrder) {
   constexpr int kRows = 40'000;  // more than two blocks
   Binary body;

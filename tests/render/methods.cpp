@@ -23,7 +23,8 @@ class EachMethod : public testing::TestWithParam<Progressive> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Methods, EachMethod,
-                         testing::Combine(testing::Values(Mode::hierarchical, Mode::unstructured, Mode::hybrid),
+                         testing::Combine(testing::Values(Mode::hierarchical, Mode::unstructured, Mode::hybrid,
+                                                          Mode::subsample),
                                           testing::Values(RasterizerKind::points, RasterizerKind::compute)),
                          [](const auto& param) {
                            return std::string(name_of(std::get<0>(param.param))) + "_" +

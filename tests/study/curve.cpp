@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "render/measure/psnr.h"
+#include "src/study/curve_json.h"
+#include "src/study/summary.h"
 
 namespace stipple {
 namespace {
@@ -122,6 +124,69 @@ TEST(Summary, HasWhatWasMeasuredOfTheLastFrameAndAtEachQuality) {
   EXPECT_TRUE(summary_json({&curve, 1}).at("flip").is_null());
 }
 
+TEST(Summary, CountsTheFramesThatTookLongerThanTheTarget) {
+  Curve curve = curve_of(std::vector<double>(10, 20.0));
+  curve.points.back().state.milliseconds += 15.0;
+  const Json summary = summary_json({&curve, 1}, 12.0);
+  EXPECT_EQ(summary.at("target_ms"), 12.0);
+  EXPECT_NEAR(summary.at("frames_over_target").get<double>(), 0.1, 1e-12);
+  EXPECT_TRUE(summary_json({&curve, 1}).at("frames_over_target").is_null());
+}
+
+TEST(Summary, HasNoTimesOfACurveThatWasNotTimed) {
+  Curve curve = curve_of({20, 35});
+  curve.timed = false;
+  const Json summary = summary_json({&curve, 1}, 12.0);
+  for (const char* key : {"frame_ms", "target_ms", "frames_over_target"}) EXPECT_TRUE(summary.at(key).is_null()) << key;
+  EXPECT_EQ(summary.at("reached").at("30_db").at("points"), 200);
+  EXPECT_TRUE(summary.at("reached").at("30_db").at("ms_median").is_null());
+}
+
+TEST(Summary, AveragesErrorsNotDecibels) {
+  Curve curve = curve_of({kInf, 20});
+  curve.points[1].parts.carry = 10.0;
+  curve.points[1].flicker = 3.0;
+  const Json mean = summary_json({&curve, 1}).at("mean");
+  EXPECT_NEAR(mean.at("psnr_db").get<double>(), 20.0 + 10.0 * std::log10(2.0), 1e-9);
+  EXPECT_EQ(mean.at("mse_carry"), 5.0);
+  EXPECT_EQ(mean.at("flicker"), 3.0);  // of the one frame that has it
+  EXPECT_TRUE(mean.at("ssim").is_null());
+}
+
+TEST(CurveJson, ComesBackToTheLastBit) {
+  Curve curve = curve_of({20, 33.3, kInf});
+  curve.regime = "jump";
+  curve.timed = false;
+  curve.kept = {{1, "frames/a.png"}, {3, "frames/b.png"}};
+  CurvePoint& point = curve.points[1];
+  point.state = {.frame = 2,
+                 .milliseconds = 1.0 / 3.0,
+                 .points_drawn = 1'234'567'890'123,
+                 .points_reprojected = 7,
+                 .covered_pixels = 8,
+                 .budget = 9,
+                 .converged = true};
+  point.covered_mse = 0.1;
+  point.ssim = 0.1234567890123456;
+  point.flip = 0.2;
+  point.rates = {.covered_pixels = 5,
+                 .hole = 0.1,
+                 .ghost = 0.2,
+                 .see_through = 0.3,
+                 .wrong_point = 0.4,
+                 .depth_error_mean = 0.5,
+                 .depth_error_p95 = 0.6};
+  point.identical = true;
+  point.parts = {.rounding = 0.7, .selection = 0.8, .carry = 0.9};
+  point.reuse = 0.01;
+  point.flicker = 0.02;
+  const Curve back = curve_from(Json::parse(json_of(curve).dump()));
+  EXPECT_EQ(curves_csv({&back, 1}), curves_csv({&curve, 1}));
+  EXPECT_EQ(json_of(back), json_of(curve));
+  EXPECT_EQ(back.points[1].state.milliseconds, point.state.milliseconds);
+  EXPECT_EQ(back.points[1].ssim, point.ssim);
+}
+
 TEST(QualityMarks, AreTheFirstFrameAndTheFirstAtEachQuality) {
   QualityMarks marks;
   EXPECT_TRUE(marks.passes(10));
@@ -152,25 +217,35 @@ TEST(CurvesCsv, HasALineAFrameBelowItsHeader) {
                            .wrong_point = 0.03125,
                            .depth_error_mean = 0.001,
                            .depth_error_p95 = 0.002};
-  EXPECT_EQ(
-      curves_csv({&curve, 1}),
-      "dataset,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,covered_pixels,mse,"
+  curve.points[0].parts = {.rounding = 0.25, .selection = 600.0, .carry = 50.0};
+  curve.points[1].reuse = 0.5;
+  curve.points[1].flicker = 1.5;
+  const std::string header =
+      "dataset,regime,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,V,R,S,covered_pixels,mse,"
       "psnr_db,psnr_covered_db,ssim,flip,hole,see_through,ghost,wrong_point,depth_error_mean,depth_error_p95,"
-      "identical,converged\n"
-      "city,low,unstructured,compute,0,1,100,100,0,10.000,0,650.25,20.000000,10.000000,0.750000,0.125000,0.500000,"
-      "0.250000,0.062500,0.031250,0.001,0.002,0,0\n"
-      "city,low,unstructured,compute,0,2,100,200,8,20.000,9,0,inf,inf,,,0.000000,0.000000,0.000000,0.000000,0,0,"
-      "1,1\n");
+      "mse_rounding,mse_selection,mse_carry,reuse,flicker,identical,converged\n";
+  EXPECT_EQ(curves_csv({&curve, 1}),
+            header +
+                "city,cold,low,unstructured,compute,0,1,100,100,0,10.000,1,0,100,0,650.25,20.000000,10.000000,0.750000,"
+                "0.125000,0.500000,0.250000,0.062500,0.031250,0.001,0.002,0.25,600,50,,,0,0\n"
+                "city,cold,low,unstructured,compute,0,2,100,200,8,20.000,1,8,100,9,0,inf,inf,,,0.000000,0.000000,"
+                "0.000000,0.000000,0,0,0,0,0,0.500000,1.500000,1,1\n");
+}
+
+TEST(CurvesCsv, HasNoTimeOfACurveThatWasNotTimed) {
+  Curve curve = curve_of({20});
+  curve.timed = false;
+  EXPECT_NE(curves_csv({&curve, 1}).find("compute,0,1,100,100,0,,1,0,100,"), std::string::npos);
 }
 
 TEST(CurvesCsv, QuotesWhatWouldBreakALine) {
   Curve curve = curve_of({20});
   curve.dataset = "a,b";
   curve.view = "say \"hi\"";
-  EXPECT_NE(curves_csv({&curve, 1}).find("\n\"a,b\",\"say \"\"hi\"\"\",unstructured"), std::string::npos);
+  EXPECT_NE(curves_csv({&curve, 1}).find("\n\"a,b\",cold,\"say \"\"hi\"\"\",unstructured"), std::string::npos);
   curve.dataset = "two\nlines";
   curve.view = "carriage\rreturn";
-  EXPECT_NE(curves_csv({&curve, 1}).find("\n\"two\nlines\",\"carriage\rreturn\",unstructured"), std::string::npos);
+  EXPECT_NE(curves_csv({&curve, 1}).find("\n\"two\nlines\",cold,\"carriage\rreturn\",unstructured"), std::string::npos);
 }
 
 }  // namespace

@@ -173,190 +173,149 @@ inline unsigned ReturnsXyLayer::next_number(ArithmeticDecoder& decoder, State& s
           (changed & 8u) != 0};
 }
 
-// The layers of one value each. decode() is given the value of the point before, whatever its channel, and returns the
-// next.
-
-class ZLayer {
+// A layer of one value, which stands at kAt of a record. Models, one for each channel: init(before) takes the value of
+// the point before, whatever its channel; decode() returns the next.
+template <class Models, std::size_t kAt>
+class ValueLayer {
  public:
-  using Value = std::int32_t;
-  static constexpr std::size_t kOffset = 8;
+  using Value = typename Models::Value;
+  static constexpr std::size_t kOffset = kAt;
+
   void begin(unsigned channel, Value first) { states_.restart(channel, first); }
   [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
-    State& state = states_.at(context.channel, before);
-    Value& height = state.heights[context.level];
-    height = state.z.decode(decoder, height, context.z_context);
+    return states_.at(context.channel, before).decode(decoder, context);
+  }
+
+ private:
+  ChannelStates<Models> states_;
+};
+
+struct ZModels {
+  using Value = std::int32_t;
+  std::array<Value, kReturnLevels> heights;
+  IntegerDecoder<32, 20> z;
+
+  void init(Value before) {
+    heights.fill(before);
+    z.init();
+  }
+  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context) {
+    Value& height = heights[context.level];
+    height = z.decode(decoder, height, context.z_context);
     return height;
   }
-
- private:
-  struct State {
-    std::array<Value, kReturnLevels> heights;
-    IntegerDecoder<32, 20> z;
-    void init(Value before) {
-      heights.fill(before);
-      z.init();
-    }
-  };
-  ChannelStates<State> states_;
 };
+using ZLayer = ValueLayer<ZModels, 8>;
 
-class ClassificationLayer {
- public:
+struct ClassificationModels {
   using Value = std::uint8_t;
-  static constexpr std::size_t kOffset = 16;
-  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
-  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
-    State& state = states_.at(context.channel, before);
-    const unsigned model = (state.last & 31u) * 2 + (context.returns == 3);
-    state.last = static_cast<Value>(decoder.symbol(state.models[model]));
-    return state.last;
+  Value last;
+  LazyModels<256, 64> models;
+
+  void init(Value before) {
+    last = before;
+    models.forget();
   }
-
- private:
-  struct State {
-    Value last;
-    LazyModels<256, 64> models;
-    void init(Value before) {
-      last = before;
-      models.forget();
-    }
-  };
-  ChannelStates<State> states_;
-};
-
-// Classification flags, direction and edge; the channel between them stays.
-class FlagsLayer {
- public:
-  using Value = std::uint8_t;
-  static constexpr std::size_t kOffset = 15;
-  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
-  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
-    State& state = states_.at(context.channel, before);
-    state.last = decoder.symbol(state.models[state.last]);
-    return static_cast<Value>((state.last & 15u) | (state.last & 48u) << 2 |
-                              static_cast<unsigned>(context.channel) << 4);
-  }
-
- private:
-  struct State {
-    unsigned last;  // six bits
-    LazyModels<64, 64> models;
-    void init(Value before) {
-      last = (before & 15u) | (before >> 2 & 48u);
-      models.forget();
-    }
-  };
-  ChannelStates<State> states_;
-};
-
-class IntensityLayer {
- public:
-  using Value = std::uint16_t;
-  static constexpr std::size_t kOffset = 12;
-  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
-  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
-    State& state = states_.at(context.channel, before);
-    Value& last = state.last[context.returns * 2u + context.time_changed];
-    last = static_cast<Value>(state.intensity.decode(decoder, last, context.returns));
+  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context) {
+    const unsigned model = (last & 31u) * 2 + (context.returns == 3);
+    last = static_cast<Value>(decoder.symbol(models[model]));
     return last;
   }
-
- private:
-  struct State {
-    std::array<Value, 8> last;
-    IntegerDecoder<16, 4> intensity;
-    void init(Value before) {
-      last.fill(before);
-      intensity.init();
-    }
-  };
-  ChannelStates<State> states_;
 };
+using ClassificationLayer = ValueLayer<ClassificationModels, 16>;
 
-class ScanAngleLayer {
- public:
-  using Value = std::int16_t;
-  static constexpr std::size_t kOffset = 18;
-  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
-  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
-    State& state = states_.at(context.channel, before);
-    if (context.angle_changed)
-      state.last = static_cast<Value>(state.angle.decode(decoder, state.last, context.time_changed));
-    return state.last;
-  }
-
- private:
-  struct State {
-    Value last;
-    IntegerDecoder<16, 2> angle;
-    void init(Value before) {
-      last = before;
-      angle.init();
-    }
-  };
-  ChannelStates<State> states_;
-};
-
-class UserDataLayer {
- public:
+// Classification flags, direction and edge; the channel between them stays.
+struct FlagsModels {
   using Value = std::uint8_t;
-  static constexpr std::size_t kOffset = 17;
-  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
-  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
-    State& state = states_.at(context.channel, before);
-    state.last = static_cast<Value>(decoder.symbol(state.models[state.last / 4u]));
-    return state.last;
+  unsigned last;  // six bits
+  LazyModels<64, 64> models;
+
+  void init(Value before) {
+    last = (before & 15u) | (before >> 2 & 48u);
+    models.forget();
   }
-
- private:
-  struct State {
-    Value last;
-    LazyModels<256, 64> models;
-    void init(Value before) {
-      last = before;
-      models.forget();
-    }
-  };
-  ChannelStates<State> states_;
+  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context) {
+    last = decoder.symbol(models[last]);
+    return static_cast<Value>((last & 15u) | (last & 48u) << 2 | static_cast<unsigned>(context.channel) << 4);
+  }
 };
+using FlagsLayer = ValueLayer<FlagsModels, 15>;
 
-class PointSourceLayer {
- public:
+struct IntensityModels {
   using Value = std::uint16_t;
-  static constexpr std::size_t kOffset = 20;
-  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
-  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
-    State& state = states_.at(context.channel, before);
-    if (context.source_changed) state.last = static_cast<Value>(state.source.decode(decoder, state.last));
-    return state.last;
+  std::array<Value, 8> lasts;
+  IntegerDecoder<16, 4> intensity;
+
+  void init(Value before) {
+    lasts.fill(before);
+    intensity.init();
   }
-
- private:
-  struct State {
-    Value last;
-    IntegerDecoder<16, 1> source;
-    void init(Value before) {
-      last = before;
-      source.init();
-    }
-  };
-  ChannelStates<State> states_;
+  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context) {
+    Value& last = lasts[context.returns * 2u + context.time_changed];
+    last = static_cast<Value>(intensity.decode(decoder, last, context.returns));
+    return last;
+  }
 };
+using IntensityLayer = ValueLayer<IntensityModels, 12>;
 
-class GpsTimeLayer {
- public:
+struct ScanAngleModels {
+  using Value = std::int16_t;
+  Value last;
+  IntegerDecoder<16, 2> angle;
+
+  void init(Value before) {
+    last = before;
+    angle.init();
+  }
+  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context) {
+    if (context.angle_changed) last = static_cast<Value>(angle.decode(decoder, last, context.time_changed));
+    return last;
+  }
+};
+using ScanAngleLayer = ValueLayer<ScanAngleModels, 18>;
+
+struct UserDataModels {
+  using Value = std::uint8_t;
+  Value last;
+  LazyModels<256, 64> models;
+
+  void init(Value before) {
+    last = before;
+    models.forget();
+  }
+  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext&) {
+    last = static_cast<Value>(decoder.symbol(models[last / 4u]));
+    return last;
+  }
+};
+using UserDataLayer = ValueLayer<UserDataModels, 17>;
+
+struct PointSourceModels {
+  using Value = std::uint16_t;
+  Value last;
+  IntegerDecoder<16, 1> source;
+
+  void init(Value before) {
+    last = before;
+    source.init();
+  }
+  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context) {
+    if (context.source_changed) last = static_cast<Value>(source.decode(decoder, last));
+    return last;
+  }
+};
+using PointSourceLayer = ValueLayer<PointSourceModels, 20>;
+
+struct GpsTimeModels {
   using Value = std::uint64_t;  // the bits of a double
-  static constexpr std::size_t kOffset = 22;
-  void begin(unsigned channel, Value first) { states_.restart(channel, first); }
-  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context, Value before) {
-    State& state = states_.at(context.channel, before);
-    return context.time_changed ? state.decode(decoder) : state.last();
-  }
+  GpsTimeDecoder<0> times;
 
- private:
-  using State = GpsTimeDecoder<0>;
-  ChannelStates<State> states_;
+  void init(Value before) { times.init(before); }
+  [[gnu::always_inline]] Value decode(ArithmeticDecoder& decoder, const PointContext& context) {
+    return context.time_changed ? times.decode(decoder) : times.last();
+  }
 };
+using GpsTimeLayer = ValueLayer<GpsTimeModels, 22>;
 
 // Values as they stand in a record.
 template <class Value>

@@ -200,6 +200,28 @@ class BinaryPly {
   std::vector<std::uint64_t> begins_{header_.body};  // of the elements, as far as found
 };
 
+std::size_t count_values(std::string_view line) {
+  std::size_t count = 0;
+  for (TextCursor cursor(line, TextCursor::kBlanksOnly); !cursor.at_end(); ++count) cursor.advance(cursor.value_end());
+  return count;
+}
+
+// A list at the end of a row is what writers declare and then forget. Where the first row ends before it, no row is
+// expected to have it.
+void forget_missing_list(const LineIndex& index, const Element& element, TextPart& part,
+                         std::vector<std::string>& warnings) {
+  if (element.count == 0 || !part.values.back().list) return;
+  const auto is_list = [](const TextValue& value) { return value.list; };
+  if (std::any_of(part.values.begin(), part.values.end() - 1, is_list)) return;
+  std::size_t values = 0;
+  Buffer<std::byte> scratch;
+  index.for_each_row(part.first_row, 1, scratch, [&](const TextRow& row) { values = count_values(row.text); });
+  if (values + 1 != part.values.size()) return;
+  part.values.pop_back();
+  warnings.push_back(fmt::format("The rows lack the list \"{}\", which the header declares; it would not be read.",
+                                 element.properties.back().name));
+}
+
 std::unique_ptr<PointTable> ascii_table(std::shared_ptr<const InputFile> file, const Header& header,
                                         const Vertices& vertices, std::vector<std::string>& warnings) {
   auto index = std::make_shared<const LineIndex>(*file, LineIndex::Start{header.body, header.body_line, header.newline},
@@ -209,13 +231,15 @@ std::unique_ptr<PointTable> ascii_table(std::shared_ptr<const InputFile> file, c
   std::size_t v = 0;
   for (std::size_t e = 0; e <= vertices.elements.back(); ++e) {
     const Element& element = header.elements[e];
-    if (e == vertices.elements[v]) parts.push_back({row, vertices.values[v++]});
+    const bool has_points = e == vertices.elements[v];
+    if (has_points) parts.push_back({row, vertices.values[v++]});
     if (element.properties.empty()) continue;
     if (element.count > index->rows() - row)
       throw_at_line(file->path(), header.body_line + index->lines(),
                     fmt::format("the file ends here, with {} of the {} rows that the header states for element \"{}\" "
                                 "at byte {}. {}",
                                 index->rows() - row, element.count, element.name, element.stated_at, kRemedy));
+    if (has_points) forget_missing_list(*index, element, parts.back(), warnings);
     row += element.count;
   }
   if (vertices.elements.back() + 1 == header.elements.size()) {

@@ -61,7 +61,7 @@ void BlockPositions::load(const std::array<const Column*, 3>& columns, std::size
   }
   std::size_t good = 0;
   for (std::size_t i = 0; i < rows; ++i)
-    good += is_coordinate(axes_[0][i]) & is_coordinate(axes_[1][i]) & is_coordinate(axes_[2][i]);
+    good += std::size_t{is_coordinate(axes_[0][i])} & is_coordinate(axes_[1][i]) & is_coordinate(axes_[2][i]);
   if (good == rows) return;
   kept_.reserve(good);
   for (std::size_t i = 0; i < rows; ++i) {

@@ -30,8 +30,7 @@ class FieldColumns {
  public:
   FieldColumns(const PointTable& table, std::vector<std::size_t> fields) : table_(table), fields_(std::move(fields)) {
     std::ranges::sort(fields_);
-    const auto repeated = std::ranges::unique(fields_);
-    fields_.erase(repeated.begin(), repeated.end());
+    fields_.erase(std::unique(fields_.begin(), fields_.end()), fields_.end());
     for (const std::size_t f : fields_) {
       const TableField& field = table.fields()[f];
       columns_.push_back({{field.name, field.type, field.components, 1.0, 0.0}, {}});

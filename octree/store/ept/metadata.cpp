@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "octree/store/ept/format.h"
-#include "octree/store/json_value.h"
+#include "octree/store/json_cube.h"
 
 namespace stipple::ept {
 namespace {
 
 constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 48;
-constexpr double kWidestCube = 1e300;
 constexpr std::size_t kMaxDimensions = 1000;
 // Steps of the grid of X, Y and Z that are no integers: an edge of 2^30 leaves a bit for points outside the cube.
 constexpr int kRealGridBits = 30;
@@ -192,12 +191,7 @@ WorldBox parse_box(const JsonValue& json) {
 
 WorldBox parse_cube(const JsonValue& json) {
   const WorldBox box = parse_box(json);
-  const glm::dvec3 size = box.max - box.min;
-  const double edge = std::max({size.x, size.y, size.z});
-  const glm::dvec3 magnitude = glm::max(glm::abs(box.min), glm::abs(box.max));
-  const double tolerance = 1e-6 * edge + 1e-9 * std::max({magnitude.x, magnitude.y, magnitude.z});
-  if (!(edge < kWidestCube) || edge - std::min({size.x, size.y, size.z}) > tolerance)
-    throw json.error(fmt::format("{} x {} x {} was found, and a cube was expected.", size.x, size.y, size.z));
+  check_cube(box, json);
   return box;
 }
 

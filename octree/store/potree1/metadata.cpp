@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "octree/store/json_cube.h"
 #include "octree/store/potree1/format.h"
 
 namespace stipple::potree1 {
@@ -13,7 +14,6 @@ namespace {
 constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 48;
 constexpr int kLowestMinor = 4;  // before, positions were floats
 constexpr int kHighestMinor = 8;
-constexpr double kWidestCube = 1e300;
 
 double edge_of(const WorldBox& cube) {
   const glm::dvec3 size = cube.max - cube.min;
@@ -39,12 +39,7 @@ WorldBox parse_box(const JsonValue& json) {
 
 WorldBox parse_cube(const JsonValue& json) {
   const WorldBox box = parse_box(json);
-  const glm::dvec3 size = box.max - box.min;
-  const double edge = std::max({size.x, size.y, size.z});
-  const glm::dvec3 magnitude = glm::max(glm::abs(box.min), glm::abs(box.max));
-  const double tolerance = 1e-6 * edge + 1e-9 * std::max({magnitude.x, magnitude.y, magnitude.z});
-  if (!(edge < kWidestCube) || edge - std::min({size.x, size.y, size.z}) > tolerance)
-    throw json.error(fmt::format("{} x {} x {} was found, and a cube was expected.", size.x, size.y, size.z));
+  check_cube(box, json);
   return box;
 }
 

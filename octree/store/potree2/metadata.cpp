@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "octree/store/json_value.h"
+#include "octree/store/json_cube.h"
 #include "octree/store/potree2/format.h"
 
 namespace stipple::potree2 {
@@ -15,7 +15,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 48;
 constexpr std::uint64_t kMaxComponents = 1 << 16;
 constexpr std::uint64_t kMaxRecordBytes = 1 << 20;
-constexpr double kWidestCube = 1e300;
 
 // The one value that all components share; `otherwise` where the file has no such key.
 double common_value(const JsonValue& attribute, std::string_view key, double otherwise) {
@@ -87,16 +86,7 @@ Grid parse_grid(const JsonValue& json) {
 
 WorldBox parse_cube(const JsonValue& json) {
   const WorldBox box{json["min"].vector(), json["max"].vector()};
-  const glm::dvec3 size = box.max - box.min;
-  const double edge = std::max({size.x, size.y, size.z});
-  const glm::dvec3 magnitude = glm::max(glm::abs(box.min), glm::abs(box.max));
-  // A million times the rounding of a double; a writer with floats would still be within it
-  const double tolerance = 1e-6 * edge + 1e-9 * std::max({magnitude.x, magnitude.y, magnitude.z});
-  if (!(edge < kWidestCube) || std::min({size.x, size.y, size.z}) < 0.0)
-    throw json.error("\"max\" was expected to be above \"min\".");
-  for (int axis = 0; axis < 3; ++axis)
-    if (edge - size[axis] > tolerance)
-      throw json.error(fmt::format("{} x {} x {} was found, and a cube was expected.", size.x, size.y, size.z));
+  check_cube(box, json);
   return box;
 }
 

@@ -1,0 +1,108 @@
+#include "render/method/lod_source.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "octree/build/sampling.h"
+#include "octree/core/error.h"
+#include "octree/select/order.h"
+#include "render/frame/view_frustum.h"
+
+namespace stipple {
+
+std::vector<LodSource::Part> MemoryLod::visible(const View& view) {
+  std::vector<Part> parts;
+  for (const VisibleNode& visible : visible_nodes(octree_, frustum_of(view), view.eye)) {
+    const Node& node = octree_.nodes[visible.node];
+    const double spacing = std::ldexp(octree_.cube.edge, -node.level - kLatticeLevels);
+    for (std::uint32_t c = node.first_cluster; c < node.first_cluster + node.cluster_count; ++c)
+      parts.push_back(
+          {octree_.clusters[c].first, octree_.clusters[c].count, spacing / std::max(visible.distance, view.near)});
+  }
+  return parts;
+}
+
+bool MemoryLod::draw(std::span<const Part> parts, Selection& selection) {
+  std::vector<Part> in_order(parts.begin(), parts.end());
+  std::ranges::sort(in_order, {}, &Part::key);
+  // Neighbours are drawn as one
+  for (std::size_t i = 0; i < in_order.size();) {
+    const std::size_t first = in_order[i].key;
+    std::size_t end = first;
+    for (; i < in_order.size() && in_order[i].key == end; ++i) end += in_order[i].count;
+    cloud_.append_items(first, end - first, selection.items);
+    selection.points += end - first;
+  }
+  return true;
+}
+
+TreeLod::TreeLod(std::shared_ptr<const TreeStore> store, const ColorMap& colors, std::uint64_t bytes_before,
+                 std::uint32_t slots)
+    : store_(store),
+      supply_(store, colors, bytes_before),
+      reader_(store, colors, store->info().cube.edge),
+      pool_(slots, store->info().cube.edge) {}
+
+std::vector<LodSource::Part> TreeLod::visible(const View& view) {
+  for (const PartReader::Request& request : reader_.cancel()) loading_.erase(request.key);
+  return parts_of(supply_.visible(view));
+}
+
+std::vector<LodSource::Part> TreeLod::parts_of(const std::vector<VisibleCluster>& clusters) const {
+  std::vector<Part> parts;
+  for (const VisibleCluster& cluster : clusters) {
+    const TreeSupply::Part& part = supply_.part(cluster.handle);
+    parts.push_back(
+        {part_key(part.node, part.first), cluster.count, supply_.projected_spacing(part.node, cluster.distance)});
+  }
+  return parts;
+}
+
+bool TreeLod::draw(std::span<const Part> parts, Selection& selection) {
+  ++frame_;
+  for (const Part& part : parts) {
+    const auto resident = residents_.find(part.key);
+    if (resident != residents_.end()) resident->second.frame = frame_;
+  }
+  for (const Part& part : parts)
+    if (!residents_.contains(part.key)) request(part);
+  receive(selection.items.empty());
+  bool all = true;
+  for (const Part& part : parts) {
+    const auto resident = residents_.find(part.key);
+    if (resident == residents_.end()) {
+      all = false;
+      continue;
+    }
+    resident->second.frame = frame_;
+    for (const ClusterRun& run : resident->second.runs) pool_.append_items(run, selection.items);
+    selection.points += part.count;
+  }
+  return all;
+}
+
+void TreeLod::request(const Part& part) {
+  if (loading_.insert(part.key).second)
+    reader_.request({part.key, supply_.node(node_of(part.key)), first_of(part.key), part.count});
+}
+
+void TreeLod::receive(bool patient) {
+  for (PartReader::Part& part : reader_.collect(patient)) {
+    loading_.erase(part.request.key);
+    if (part.failure) std::rethrow_exception(part.failure);
+    put(part);
+  }
+}
+
+// What this frame draws has room; where nothing else gives way, the part came for an earlier one.
+void TreeLod::put(PartReader::Part& part) {
+  while (pool_.free_slots() < part.points.slots()) {
+    const auto oldest = std::ranges::min_element(residents_, {}, [](const auto& entry) { return entry.second.frame; });
+    if (oldest == residents_.end() || oldest->second.frame == frame_) return;
+    pool_.free(oldest->second.runs);
+    residents_.erase(oldest);
+  }
+  residents_[part.request.key] = {pool_.put(part.points, 0, part.points.slots()), frame_};
+}
+
+}  // namespace stipple

@@ -1,0 +1,26 @@
+// What the camera does while a method draws.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace stipple {
+
+enum class Regime {
+  cold,  // a still view, from nothing (Tredinnick and others 2016, section 5)
+  jump,  // a still view, after another has converged
+  path,  // each frame from the next place on a path
+  stop,  // a still view, after a path that ends there
+};
+
+std::span<const Regime> all_regimes();
+// "cold", "jump", "path", "stop".
+std::string_view name_of(Regime regime);
+std::optional<Regime> regime_named(std::string_view name);
+// Whether it is about views; the others are about paths.
+inline bool of_views(Regime regime) {
+  return regime == Regime::cold || regime == Regime::jump;
+}
+
+}  // namespace stipple

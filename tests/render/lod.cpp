@@ -1,0 +1,78 @@
+// Level of detail: what its budget holds, and no more.
+#include "render/method/lod.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "render/method/progressive_renderer.h"
+#include "tests/render/gl_test.h"
+
+namespace stipple::test {
+namespace {
+
+constexpr std::uint64_t kPoints = 60'000;
+
+TEST(Lod, ABudgetForAllGivesTheBruteForcePicture) {
+  const Dataset& dataset = scene("city", kPoints);
+  for (const RasterizerKind rasterizer : {RasterizerKind::points, RasterizerKind::compute}) {
+    const View view = view_of(dataset, "oblique");
+    const auto method = make_method(Mode::lod, dataset.points, &*dataset.octree);
+    EXPECT_TRUE(same_picture(converged_picture(*method, rasterizer, dataset.points.grid, view, kPoints),
+                             brute_force_picture(dataset.points, rasterizer, view)));
+  }
+}
+
+TEST(Lod, StopsAtTheBudgetAndGrowsWithIt) {
+  const Dataset& dataset = scene("city", kPoints);
+  const View view = view_of(dataset, "oblique");
+  std::uint64_t last = 0;
+  for (const std::uint32_t budget : {0u, 5'000u, 20'000u, 60'000u}) {
+    const auto method = make_method(Mode::lod, dataset.points, &*dataset.octree);
+    ProgressiveRenderer renderer(*method, RasterizerKind::compute, dataset.points.grid);
+    const FrameReport report = renderer.draw(view, budget);
+    EXPECT_TRUE(report.converged);
+    EXPECT_LE(report.points_filled, budget);
+    EXPECT_GE(report.points_filled, last);
+    last = report.points_filled;
+  }
+  EXPECT_GT(last, 30'000u);
+}
+
+// The nodes that are drawn are a tree's upper part: no node is without those above it that are in sight.
+TEST(Lod, CoarseNodesComeFirst) {
+  const Dataset& dataset = scene("terrain", kPoints);
+  const View view = view_of(dataset, "aerial");
+  MemoryLod source(dataset.points, *dataset.octree);
+  std::vector<LodSource::Part> parts = source.visible(view);
+  ASSERT_GT(parts.size(), 3u);
+  std::ranges::sort(parts, std::greater{}, &LodSource::Part::urgency);
+  const Node& root = dataset.octree->nodes.front();
+  EXPECT_LT(parts.front().key - root.first, root.count);
+}
+
+class LodOnDisk : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(All, LodOnDisk,
+                         testing::Values("derived/potree2/lion-brotli", "potree+potree/lion_takanawa_ept_bin",
+                                         "potree+potree/lion_takanawa.copc.laz"));
+
+TEST_P(LodOnDisk, DrawsWithoutLoadingTheTree) {
+  const std::filesystem::path path = std::filesystem::path(STIPPLE_SHARED_DATA) / GetParam();
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing: real trees are not tested";
+  const Dataset loaded = open_dataset(path, "", {});
+  const Dataset on_disk = open_dataset(path, "", {.points = false});
+  const auto method = make_method(Mode::lod, on_disk, {.largest_budget = 1'000'000});
+  const View view = view_of(loaded, "oblique");
+  EXPECT_TRUE(same_picture(converged_picture(*method, RasterizerKind::compute, on_disk.points.grid, view, 1'000'000),
+                           brute_force_picture(loaded.points, RasterizerKind::compute, view)));
+  // With room for a part of it: what has room is drawn, again and again, and the end is reached
+  const auto cramped = make_method(Mode::lod, on_disk, {.largest_budget = 100'000, .limits = {.gpu = 1'000'000}});
+  for (const char* camera : {"oblique", "low", "aerial"})
+    EXPECT_GT(
+        converged_picture(*cramped, RasterizerKind::compute, on_disk.points.grid, view_of(loaded, camera), 100'000)
+            .covered_pixels(),
+        0u);
+}
+
+}  // namespace
+}  // namespace stipple::test
