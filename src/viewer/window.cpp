@@ -26,7 +26,7 @@ Error no_display(const std::string& why) {
   const char* x11 = std::getenv("DISPLAY");
   return Error(fmt::format(
       "no window can be opened: {}. DISPLAY is {}. Start it in a graphical session, over `ssh -X`, or under "
-      "`xvfb-run -s \"-screen 0 1280x720x24\"` (package xvfb); `stipple render` needs no display.",
+      "`xvfb-run -s \"-screen 0 1280x720x24\"` (packages xvfb and xauth); `stipple render` needs no display.",
       why, x11 && *x11 ? fmt::format("\"{}\"", x11) : "not set"));
 }
 
