@@ -44,7 +44,11 @@ ViewerOptions viewer_options(const Options& options) {
   viewer.policy = budget_of(options.draw);
   viewer.point_size = parse_positive("--point-size", options.draw.point_size);
   viewer.background = parse_color("--background", options.draw.background);
-  if (!options.camera.empty()) viewer.camera = read_cameras(options.camera).front().camera;
+  if (!options.camera.empty()) {
+    const CameraFile file = read_camera_file(options.camera);
+    if (!file.views.empty()) viewer.camera = file.views.front().camera;
+    if (!file.paths.empty()) viewer.path = file.paths.front();
+  }
   viewer.screenshot = options.screenshot;
   viewer.with_panels = options.with_panels;
   viewer.exit_after_screenshot = options.exit_after_screenshot;
@@ -100,7 +104,8 @@ void add_view_command(CLI::App& app) {
   add_draw_options(*command, options->draw);
   CLI::Option* budget = command->get_option("--budget");
   command->add_option("--camera", options->camera,
-                      R"(JSON file with "eye" and "target" to begin with; of several views the first.)");
+                      R"(JSON file with "eye" and "target" to begin with, or "paths", as `stipple study --path` takes )"
+                      "them, to fly with T; of several the first.");
   CLI::Option* screenshot =
       command->add_option("--screenshot", options->screenshot,
                           "PNG file to write when nothing is left to draw: the picture without the panels.");

@@ -38,6 +38,8 @@ constexpr auto kTable = std::to_array<KeyEntry>({
     {"", "", Command::smaller_points, GLFW_KEY_KP_SUBTRACT, false, '-'},
     {"X", "forget the picked points", Command::clear_picks, 0, false, 'x'},
     {"P", "show or hide the panel", Command::panel, 0, false, 'p'},
+    {"R", "record a camera path, and write it", Command::record, 0, false, 'r'},
+    {"T", "fly the path recorded last, or that of --camera", Command::replay, 0, false, 't'},
     {"F12", "screenshot, when nothing is left to draw", Command::screenshot, GLFW_KEY_F12},
     {"Ctrl C", "copy the command that renders this view", Command::copy_command, GLFW_KEY_C, true},
     {"Esc", "cancel loading, close this list", Command::cancel, GLFW_KEY_ESCAPE},

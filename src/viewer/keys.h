@@ -30,6 +30,8 @@ enum class Command {
   clear_picks,
   panel,
   keys,
+  record,
+  replay,
   screenshot,
   copy_command,
   cancel,

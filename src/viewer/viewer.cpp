@@ -11,7 +11,9 @@
 #include <filesystem>
 
 #include "octree/core/error.h"
+#include "octree/core/output_file.h"
 #include "octree/store/open_tree.h"
+#include "src/camera/camera_file.h"
 #include "src/cli/cli.h"
 #include "src/run/provenance.h"
 #include "src/viewer/command_line.h"
@@ -39,9 +41,9 @@ MouseButton button_of(int code) {
 }
 
 // screenshot.png, screenshot-2.png, ...: the first that is not there.
-std::string free_name() {
-  std::string name = "screenshot.png";
-  for (int number = 2; std::filesystem::exists(name); ++number) name = fmt::format("screenshot-{}.png", number);
+std::string free_name(const std::string& stem, const std::string& extension) {
+  std::string name = stem + extension;
+  for (int number = 2; std::filesystem::exists(name); ++number) name = fmt::format("{}-{}{}", stem, number, extension);
   return name;
 }
 
@@ -57,6 +59,7 @@ Viewer::Viewer(Window& window, ViewerOptions options)
       screenshot_(options_.screenshot) {
   size_ = glm::max(window_.size(), 1);
   set_policy(options_.policy);
+  if (options_.path) flight_.set_path(*options_.path);
   if (!options_.inputs.empty()) open(options_.inputs);
 }
 
@@ -84,6 +87,8 @@ bool Viewer::step(double most_seconds) {
   for (const InputEvent& event : window_.take_events()) take_event(event);
   if (working) frames_to_show_ = std::max(frames_to_show_, 1);
   fly();
+  if (flight_.replays()) rig_.place(flight_.camera(window_.seconds()));
+  flight_.see(rig_.camera(), window_.seconds());
   read_answers();
   if (!window_.hidden()) show_frame();
   return !quit_ && !window_.asked_to_close();
@@ -318,8 +323,12 @@ void Viewer::execute(Command command) {
     case Command::keys:
       keys_shown_ = !keys_shown_;
       return;
+    case Command::record:
+      return record();
+    case Command::replay:
+      return replay();
     case Command::screenshot:
-      screenshot_ = free_name();
+      screenshot_ = free_name("screenshot", ".png");
       note_ = "screenshot follows";
       return;
     case Command::copy_command:
@@ -347,6 +356,37 @@ void Viewer::next_color() {
   const auto now = std::ranges::find(names, options_.color.empty() ? dataset->colors.attribute : options_.color);
   const std::size_t next = now == names.end() ? 0 : static_cast<std::size_t>(now - names.begin()) + 1;
   reopen(names[next % names.size()]);
+}
+
+void Viewer::record() {
+  if (!flight_.records()) {
+    flight_.record(window_.seconds());
+    note_ = "recording; R ends it";
+    return;
+  }
+  if (!flight_.finish()) {
+    note_ = "nothing moved: no path was written";
+    return;
+  }
+  const std::string name = free_name("path", ".json");
+  try {
+    const Json document{{"paths", Json::array({json_of(*flight_.path())})}};
+    write_file(name, document.dump(2) + "\n");
+    note_ = fmt::format("{} written", name);
+  } catch (const Error& e) {
+    note_ = e.what();
+  }
+}
+
+void Viewer::replay() {
+  if (flight_.replays())
+    flight_.stop();
+  else if (flight_.records())
+    note_ = "R ends recording first";
+  else if (flight_.path())
+    flight_.replay(window_.seconds());
+  else
+    note_ = "there is no path: R records one";
 }
 
 void Viewer::set_point_size(double pixels) {

@@ -11,6 +11,7 @@
 #include "render/frame/budget.h"
 #include "src/run/view_run.h"
 #include "src/viewer/display.h"
+#include "src/viewer/flight.h"
 #include "src/viewer/gui.h"
 #include "src/viewer/panel.h"
 #include "src/viewer/pixel_reader.h"
@@ -33,7 +34,8 @@ struct ViewerOptions {
   BudgetPolicy policy;
   double point_size = 1.0;
   std::uint32_t background = 0x808080;
-  std::optional<Camera> camera;  // to begin with; none: sees the whole cloud
+  std::optional<Camera> camera;    // to begin with; none: sees the whole cloud
+  std::optional<CameraPath> path;  // to be flown on a key
   RecentInputs recent;
   bool panel_shown = true;
   std::string screenshot;    // taken when nothing is left to draw; empty: none
@@ -96,6 +98,8 @@ class Viewer {
   void face(double yaw_deg, double pitch_deg);
   void go_home();
   void next_color();
+  void record();
+  void replay();
   void set_point_size(double pixels);
 
   void read_answers();
@@ -126,6 +130,7 @@ class Viewer {
   Workshop workshop_;
   Stage stage_;  // after the workshop, whose work it owns
   Rig rig_;
+  Flight flight_;
   Pointer pointer_;
   double divider_ = 0.5;  // share of the width
   bool drags_divider_ = false;

@@ -9,6 +9,7 @@
 #include "octree/cloud/cloud.h"
 #include "octree/open/open.h"
 #include "render/measure/image.h"
+#include "src/camera/camera_file.h"
 #include "src/run/median.h"
 #include "tests/command/run_stipple.h"
 #include "tests/window/x_display.h"
@@ -218,6 +219,34 @@ TEST_F(ViewerWindow, ZoomsTurnsFliesAndGoesHome) {
   EXPECT_TRUE(until([&] { return viewer_->rig().camera().eye == home.eye; }));
   EXPECT_TRUE(complete());
   EXPECT_EQ(viewer_->picture().rgb, headless().rgb);
+}
+
+TEST_F(ViewerWindow, RecordsAPathAndFliesItAgain) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path("."));
+  start(3.0);
+  ASSERT_TRUE(complete());
+  display().press("r");
+  steps(3);
+  display().button(1, true);
+  for (int i = 1; i <= 60; ++i) {
+    display().move(kCentreX + 2 * i, kCentreY);
+    viewer_->step(0.01);
+  }
+  display().button(1, false);
+  steps(3);
+  const Camera end = viewer_->rig().camera();
+  display().press("r");
+  ASSERT_TRUE(until([] { return std::filesystem::exists("path.json"); }));
+  const CameraPath path = read_paths("path.json").front();
+  std::filesystem::current_path(before);
+  EXPECT_GT(path.keys.size(), 2u);
+  display().press("h");
+  ASSERT_TRUE(complete());
+  display().press("t");
+  // The last key is at most an interval before the end
+  ASSERT_TRUE(until([&] { return viewer_->rig().camera().eye == path.keys.back().camera.eye; }));
+  EXPECT_LT(glm::distance(viewer_->rig().camera().eye, end.eye), glm::distance(end.eye, path.keys.front().camera.eye));
 }
 
 TEST_F(ViewerWindow, ADoubleClickSetsThePivot) {
