@@ -113,7 +113,8 @@ void add_view_command(CLI::App& app) {
   command->add_flag("--exit-after-screenshot", options->exit_after_screenshot, "End then.")->needs(screenshot);
   command->footer(
       fmt::format("The window shows points while they are read. Press ? in it for the keys. Points a frame are steered "
-                  "to {} frames a second unless --fps or --budget say otherwise.\n\n"
+                  "to {} frames a second unless --fps or --budget say otherwise, or what was chosen last time. Without "
+                  "--memory, points may take four fifths of the memory that is free.\n\n"
                   "Example:\n  stipple view scan.laz",
                   kFramesPerSecond));
   command->callback([options, command, budget] {

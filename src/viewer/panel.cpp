@@ -133,6 +133,12 @@ void show_pace(const PanelFacts& facts, PanelWishes& wishes) {
   const bool done = facts.stage.complete(facts.view);
   text(
       fmt::format("{:.0f} frames/s, {} points a frame", facts.frames_per_second, with_thousands(facts.stage.filled())));
+  if (!facts.frame_ms.empty()) {
+    constexpr float kTop = 100.0f;  // ms
+    const std::string label = fmt::format("{:.0f} ms", facts.frame_ms.back());
+    ImGui::PlotLines("##times", facts.frame_ms.data(), static_cast<int>(facts.frame_ms.size()), 0, label.c_str(), 0.0f,
+                     kTop, {-1.0f, 2.5f * ImGui::GetTextLineHeight()});
+  }
   for (const Stage::Side side : {Stage::left, Stage::right}) {
     if (side == Stage::right && !facts.stage.is_split()) break;
     const Pane& pane = facts.stage.pane(side);

@@ -30,6 +30,7 @@ struct PanelFacts {
   std::span<const Pick> picks;
   View view;
   double frames_per_second = 0.0;
+  std::span<const float> frame_ms;  // of the latest frames, the oldest first
   std::uint32_t budget = 0;
   BudgetPolicy policy;
   double point_size = 1.0;

@@ -24,6 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t kFirstBudget = 100'000;
+constexpr std::size_t kFramesPlotted = 120;
 // Panels need a frame to learn of an event and one to lay themselves out.
 constexpr int kFramesAfterEvent = 3;
 // A camera that has not moved for so long stands still.
@@ -505,6 +506,8 @@ void Viewer::show_frame() {
 }
 
 void Viewer::learn_from(double ms, bool was_moving) {
+  if (frame_ms_.size() == kFramesPlotted) frame_ms_.erase(frame_ms_.begin());
+  frame_ms_.push_back(static_cast<float>(ms));
   if (!controller_ || stage_.pane().mode() == Mode::brute_force) return;
   const bool least = controller_->budget() <= kLeastMovingBudget;
   controller_->frame_done(stage_.filled(), ms);
@@ -519,6 +522,7 @@ void Viewer::show_panels() {
                                          .picks = picks_,
                                          .view = view(),
                                          .frames_per_second = frame_seconds_ > 0.0 ? 1.0 / frame_seconds_ : 0.0,
+                                         .frame_ms = frame_ms_,
                                          .budget = budget(),
                                          .policy = options_.policy,
                                          .point_size = options_.point_size,

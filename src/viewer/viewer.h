@@ -146,10 +146,11 @@ class Viewer {
   std::optional<BudgetController> controller_;
   Resolution resolution_;
   Camera last_camera_;
-  double moved_at_ = -1.0;      // window seconds
-  double frame_seconds_ = 0.0;  // smoothed, while frames follow each other
-  double last_frame_ = 0.0;     // when
-  int frames_to_show_ = 0;      // of panels that are not settled
+  double moved_at_ = -1.0;       // window seconds
+  double frame_seconds_ = 0.0;   // smoothed, while frames follow each other
+  double last_frame_ = 0.0;      // when
+  std::vector<float> frame_ms_;  // of the latest frames that drew points
+  int frames_to_show_ = 0;       // of panels that are not settled
   std::uint64_t frames_shown_ = 0;
 
   PixelReader hover_;

@@ -54,7 +54,7 @@ TEST(RecentInputs, TheLatestIsFirstAndStandsThereOnce) {
   remember(recent, {"/b.las", "/c.las"});
   remember(recent, {"/x/../a.las"});
   EXPECT_EQ(recent, (RecentInputs{{"/a.las"}, {"/b.las", "/c.las"}}));
-  for (int i = 0; i < 20; ++i) remember(recent, {"/" + std::to_string(i)});
+  for (int i = 0; i < 20; ++i) remember(recent, {fmt::format("/{}", i)});
   EXPECT_EQ(recent.size(), 10u);
   EXPECT_EQ(recent.front().front(), "/19");
 }
