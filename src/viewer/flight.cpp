@@ -26,8 +26,10 @@ void Flight::see(const Camera& camera, double now) {
     return;
   }
   if (same(keys.back().camera, camera)) return;
-  // A pause ends where the next movement begins: without a key there it would become part of it
-  if (seconds - keys.back().seconds > 2.0 * kInterval) keys.push_back({seconds - kInterval, keys.back().camera});
+  // The curve between two keys depends on their neighbours: a pause has some of its own, so that it stays one
+  if (const TimedCamera last = keys.back(); seconds - last.seconds > 4.0 * kInterval)
+    for (const double key : {last.seconds + kInterval, seconds - 2.0 * kInterval, seconds - kInterval})
+      keys.push_back({key, last.camera});
   if (seconds - keys.back().seconds >= kInterval) keys.push_back({seconds, camera});
 }
 
