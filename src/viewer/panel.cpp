@@ -137,7 +137,7 @@ void show_pace(const PanelFacts& facts, PanelWishes& wishes) {
     constexpr float kTop = 100.0f;  // ms
     const std::string label = fmt::format("{:.0f} ms", facts.frame_ms.back());
     ImGui::PlotLines("##times", facts.frame_ms.data(), static_cast<int>(facts.frame_ms.size()), 0, label.c_str(), 0.0f,
-                     kTop, {-1.0f, 2.5f * ImGui::GetTextLineHeight()});
+                     kTop, {ImGui::GetContentRegionAvail().x, 2.5f * ImGui::GetTextLineHeight()});
   }
   for (const Stage::Side side : {Stage::left, Stage::right}) {
     if (side == Stage::right && !facts.stage.is_split()) break;
