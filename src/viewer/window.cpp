@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "octree/core/error.h"
 #include "render/gpu/context.h"

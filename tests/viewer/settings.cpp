@@ -1,5 +1,6 @@
 #include "src/viewer/settings.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -103,9 +103,9 @@ TEST_F(ViewerWindow, OpensOrbitsTakesEveryMethodAndShowsWhatRenderDraws) {
   for (const auto& [key, mode] : {std::pair{"F1", Mode::unstructured}, std::pair{"F2", Mode::hierarchical},
                                   std::pair{"F4", Mode::brute_force}, std::pair{"F3", Mode::hybrid}}) {
     display().press(key);
-    ASSERT_TRUE(until([&] {
+    ASSERT_TRUE(until([&, wanted = mode] {
       EXPECT_TRUE(covered()) << "no frame is blank";
-      return viewer_->stage().pane().mode() == mode && viewer_->at_rest();
+      return viewer_->stage().pane().mode() == wanted && viewer_->at_rest();
     })) << key;
     const Image now = viewer_->picture();
     if (last) {
@@ -344,7 +344,7 @@ TEST_F(ViewerWindow, ShowsMoreThanTwentyFramesASecondOnTheMove) {
   for (const auto& [key, mode] :
        {std::pair{"F3", Mode::hybrid}, std::pair{"F1", Mode::unstructured}, std::pair{"F2", Mode::hierarchical}}) {
     display().press(key);
-    ASSERT_TRUE(until([&] { return viewer_->stage().pane().mode() == mode; }));
+    ASSERT_TRUE(until([&, wanted = mode] { return viewer_->stage().pane().mode() == wanted; }));
     display().move(900, 300);
     display().button(1, true);
     std::vector<double> seconds;
