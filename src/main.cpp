@@ -8,6 +8,7 @@
 #include "src/command/render.h"
 #include "src/command/scene.h"
 #include "src/command/study.h"
+#include "src/command/view.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Progressive renderer for very large point clouds.", "stipple");
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
   stipple::add_check_command(app);
   stipple::add_build_command(app);
   stipple::add_render_command(app);
+  stipple::add_view_command(app);
   stipple::add_study_command(app);
   stipple::add_compare_command(app);
   stipple::add_scene_command(app);

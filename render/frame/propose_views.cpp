@@ -153,4 +153,8 @@ std::vector<NamedCamera> propose_cameras(const PointSet& points, double aspect) 
           {"low", low_over(box, sample)}};
 }
 
+WorldBox robust_bounds(const PointSet& points) {
+  return robust_box(sample_of(points));
+}
+
 }  // namespace stipple

@@ -20,4 +20,8 @@ struct NamedCamera {
 // on ids, not on the order of the points. An empty cloud gives cameras near the origin.
 std::vector<NamedCamera> propose_cameras(const PointSet& points, double aspect);
 
+// Holds all but the outermost half percent of the points along each axis: the box those cameras are laid around. An
+// empty cloud gives the origin.
+WorldBox robust_bounds(const PointSet& points);
+
 }  // namespace stipple

@@ -63,16 +63,17 @@ void GLAPIENTRY report(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, co
   if (fatal) std::abort();
 }
 
-void set_defaults(const ContextOptions& options) {
+}  // namespace
+
+void set_context_defaults(bool errors_are_fatal) {
   glEnable(GL_DEBUG_OUTPUT);
-  glDebugMessageCallback(report, options.errors_are_fatal ? &options : nullptr);
-  if (options.errors_are_fatal) glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  static constexpr bool kYes = true;
+  glDebugMessageCallback(report, errors_are_fatal ? &kYes : nullptr);
+  if (errors_are_fatal) glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_PROGRAM_POINT_SIZE);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
 }
-
-}  // namespace
 
 struct HeadlessContext::Egl {
   EGLDisplay display = EGL_NO_DISPLAY;
@@ -132,7 +133,7 @@ HeadlessContext::HeadlessContext(const ContextOptions& options) {
                     failures));
   renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   version_ = reinterpret_cast<const char*>(glGetString(GL_VERSION));
-  set_defaults(options);
+  set_context_defaults(options.errors_are_fatal);
 }
 
 HeadlessContext::~HeadlessContext() = default;

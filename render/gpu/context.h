@@ -15,8 +15,12 @@ struct ContextOptions {
   EglPlatform platform = EglPlatform::any;
 };
 
-// Current on the thread that made it, from construction to destruction; one at a time. Depth runs from 0 to 1
-// (glClipControl), points take their size from the shader.
+// What every context of ours is set to: depth runs from 0 to 1 (glClipControl), points take their size from the shader,
+// the driver's errors are reported. The context is current.
+void set_context_defaults(bool errors_are_fatal);
+
+// Current on the thread that made it, from construction to destruction; one at a time. With
+// set_context_defaults().
 class HeadlessContext {
  public:
   // Tries, in this order and as far as the options allow: EGL devices that are no software (NVIDIA and others), the

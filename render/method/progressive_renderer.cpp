@@ -5,6 +5,13 @@
 #include "octree/core/error.h"
 
 namespace stipple {
+namespace {
+
+int pixels_of(const FeedbackTarget& frame) {
+  return frame.size().x * frame.size().y;
+}
+
+}  // namespace
 
 ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, double point_size)
     : method_(&method),
@@ -20,8 +27,19 @@ ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasteriz
 void ProgressiveRenderer::resize(const glm::ivec2& size) {
   for (auto& target : targets_) target.emplace(size, rasterizer_->depth_storage());
   vertices_.reset();
-  if (method_->carry() == Carry::vertices) vertices_.emplace(size);
+  if (method_->carry() == Carry::vertices) make_carry();
   method_->forget();
+}
+
+void ProgressiveRenderer::make_carry() {
+  vertices_.emplace(current().size());
+  carry_room_ = pixels_of(current());
+}
+
+void ProgressiveRenderer::prepare_carry() {
+  if (!vertices_) return;
+  if (carry_room_ < pixels_of(current())) make_carry();
+  vertices_->prepare(current());
 }
 
 void ProgressiveRenderer::use(Method& method) {
@@ -30,8 +48,8 @@ void ProgressiveRenderer::use(Method& method) {
   if (!targets_[0]) return;
   vertices_.reset();
   if (method_->carry() == Carry::vertices) {
-    vertices_.emplace(current().size());
-    vertices_->prepare(current());
+    make_carry();
+    prepare_carry();
   }
   if (view_.size == glm::ivec2(0)) return;
   if (method_->carry() == Carry::indices) method_->frame_drawn(current());
@@ -80,7 +98,7 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
 
 FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   if (view != view_) {
-    if (!targets_[0] || view.size != current().size()) resize(view.size);
+    if (!targets_[0]) resize(view.size);
     view_ = view;
     view_drawn_ = false;
     method_->start_view(view);
@@ -91,10 +109,11 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   uniforms_.set(make_view_block(view, grid_, point_size_));
   Selection selection = method_->select(budget);
   current_ = 1 - current_;
+  if (current().size() != view.size) targets_[current_].emplace(view.size, rasterizer_->depth_storage());
   append_carry(selection.items);
   rasterizer_->draw(current(), selection.items);
   method_->frame_drawn(current());
-  if (vertices_) vertices_->prepare(current());
+  prepare_carry();
   view_drawn_ = true;
   return {selection.points, method_->finished()};
 }

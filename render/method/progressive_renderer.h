@@ -35,9 +35,12 @@ class ProgressiveRenderer {
   // as the new method does. The methods must draw the same points, with the same ids.
   void use(Method& method);
 
-  // Draws the next frame: the last one reprojected into `view`, and at most `budget` more points. A converged, still
-  // view costs nothing. Commands are issued, not awaited.
+  // Draws the next frame: the last one, of whatever size, reprojected into `view`, and at most `budget` more points. A
+  // converged, still view costs nothing. Commands are issued, not awaited.
   FrameReport draw(const View& view, std::uint32_t budget);
+
+  // The last frame, on the GPU; null before the first. Valid until the next draw().
+  const FeedbackTarget* frame() const { return targets_[current_] ? &*targets_[current_] : nullptr; }
 
   // The last frame. Both wait for the GPU and belong outside of timed parts.
   FrameData read();
@@ -49,6 +52,8 @@ class ProgressiveRenderer {
 
  private:
   void resize(const glm::ivec2& size);
+  void make_carry();
+  void prepare_carry();
   void append_carry(std::vector<DrawItem>& items);
   FeedbackTarget& current() { return *targets_[current_]; }
   FeedbackTarget& previous() { return *targets_[1 - current_]; }
@@ -61,6 +66,7 @@ class ProgressiveRenderer {
   CoverageCounter coverage_;
   std::array<std::optional<FeedbackTarget>, 2> targets_;
   std::optional<VertexCarry> vertices_;
+  int carry_room_ = 0;  // pixels
   std::size_t current_ = 0;
   View view_;                // of size 0: none
   bool view_drawn_ = false;  // whether the last frame shows view_

@@ -114,22 +114,24 @@ Dataset open_dataset(const std::vector<std::string>& paths, const std::string& c
 
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree) {
   Dataset dataset;
-  auto start = Clock::now();
+  const auto start = Clock::now();
   dataset.info = source.info();
   const std::string chosen = choose_color(dataset.info.schema, color);
   const Cloud cloud = load_cloud(source, attributes_for_color(chosen));
   dataset.colors = map_colors(cloud, chosen);
   dataset.points = make_point_set(cloud, dataset.colors);
   dataset.load_seconds = seconds_since(start);
-  if (!with_octree) return dataset;
+  if (with_octree) add_octree(dataset);
+  return dataset;
+}
 
-  start = Clock::now();
+void add_octree(Dataset& dataset) {
+  const auto start = Clock::now();
   PointSet& set = dataset.points;
   dataset.octree = build_octree(set.grid, set.bounds,
                                 PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position));
   to_store_order(set, *dataset.octree);
   dataset.build_seconds = seconds_since(start);
-  return dataset;
 }
 
 double near_plane(const Grid& grid) {

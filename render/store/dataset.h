@@ -58,6 +58,9 @@ Dataset open_dataset(const std::vector<std::string>& paths, const std::string& c
 // Reads and colours a source that is no tree; builds the octree when asked to.
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree);
 
+// Builds the octree of all points, which are in memory, and puts them in its order.
+void add_octree(Dataset& dataset);
+
 // The near plane for a cloud: one cell of its grid along the finest axis. Points nearer than the grid can tell are
 // clipped; reversed float depth loses nothing by it.
 double near_plane(const Grid& grid);

@@ -59,5 +59,26 @@ TEST_P(Toggle, ConvergesToBruteForceOnTheMove) {
   EXPECT_TRUE(same_picture(renderer.read(), brute_force_picture(dataset.points, GetParam(), view)));
 }
 
+TEST_P(Toggle, AnotherSizeGoesOnFromThePictureThatIsThere) {
+  const Dataset& dataset = scene("city", kPoints);
+  for (const auto& method : methods(dataset)) {
+    if (method->carry() == Carry::none) continue;
+    ProgressiveRenderer renderer(*method, GetParam(), dataset.points.grid);
+    const View last = view_of(dataset, "oblique", {300, 170});
+    for (const glm::ivec2& size : {glm::ivec2(320, 180), glm::ivec2(160, 90), glm::ivec2(161, 90), last.size}) {
+      const View view = view_of(dataset, "oblique", size);
+      for (int frame = 0; frame < 2; ++frame) renderer.draw(view, 10'000);
+      ASSERT_EQ(renderer.read().size, size);
+      const std::uint64_t covered = renderer.covered_pixels();
+      renderer.draw(view_of(dataset, "oblique", size + 1), 0);
+      // Where points of neighbouring pixels fall together some are gone
+      EXPECT_GT(renderer.covered_pixels(), covered / 2) << size.x;
+    }
+    while (!renderer.draw(last, 20'000).converged) {
+    }
+    EXPECT_TRUE(same_picture(renderer.read(), brute_force_picture(dataset.points, GetParam(), last)));
+  }
+}
+
 }  // namespace
 }  // namespace stipple::test

@@ -1,0 +1,44 @@
+#include "src/viewer/command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace stipple {
+namespace {
+
+std::string text_of(const glm::dvec3& v) {
+  return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+}  // namespace
+
+std::string quoted(const std::string& word) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || std::string_view("/._-+,:=@").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
+  std::string text(1, '\'');
+  for (const char c : word) {
+    if (c == '\'')
+      text += "'\\''";
+    else
+      text += c;
+  }
+  text += '\'';
+  return text;
+}
+
+std::string text_of(const RenderCommand& command) {
+  std::string line = "stipple render";
+  for (const std::string& input : command.inputs) line += fmt::format(" {}", quoted(input));
+  line += fmt::format(" -o view.png --mode {} --raster {} --size {}x{} --eye={} --target={} --up={} --fov {}",
+                      command.mode, command.raster, command.size.x, command.size.y, text_of(command.camera.eye),
+                      text_of(command.camera.target), text_of(command.camera.up), command.camera.fov_deg);
+  line += fmt::format(" --color {} --point-size {} --background {:06x}", quoted(command.color), command.point_size,
+                      command.background);
+  return line;
+}
+
+}  // namespace stipple

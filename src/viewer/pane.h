@@ -1,0 +1,61 @@
+// One picture that fills up: a method, and the renderer that goes on when the method is another.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "render/method/progressive_renderer.h"
+#include "render/store/dataset.h"
+
+namespace stipple {
+
+class Pane {
+ public:
+  // What can be drawn.
+  struct Content {
+    std::shared_ptr<Method> method;
+    std::shared_ptr<const Dataset> dataset;  // that the method draws from; null: it has its points itself
+    std::optional<Mode> mode;                // none: a preview
+    Grid grid;
+    ColorMap colors;
+  };
+
+  Pane(RasterizerKind rasterizer, double point_size) : rasterizer_(rasterizer), point_size_(point_size) {}
+
+  // From now on draws this, beginning with the picture that is there unless the points are others or their colours.
+  // Throws Error as ProgressiveRenderer does; then it shows what it showed.
+  void show(Content next, bool other_points);
+  // Throws Error where the rasterizer draws no such points; then they stay as they were.
+  void set_point_size(double pixels);
+  // Draws again though it was at rest: the method has got more points.
+  void wake() { report_.converged = false; }
+
+  // The next frame, if there is anything to draw.
+  void draw(const View& view, std::uint32_t budget);
+  // Nothing more would be drawn for this view.
+  bool at_rest(const View& view) const { return !renderer_ || (view == drawn_view_ && report_.converged); }
+
+  // Null before the first.
+  const FeedbackTarget* frame() const { return renderer_ ? renderer_->frame() : nullptr; }
+  bool empty() const { return !renderer_; }
+  const Content& content() const { return content_; }
+  std::optional<Mode> mode() const { return content_.mode; }
+  std::uint64_t filled() const { return report_.points_filled; }  // by the last frame
+  std::uint64_t filled_for_view() const { return view_points_; }  // by all frames of this view
+  std::uint64_t frames() const { return frames_; }                // drawn ever
+
+ private:
+  std::unique_ptr<ProgressiveRenderer> make_renderer(const Content& content, double point_size) const;
+
+  RasterizerKind rasterizer_;
+  double point_size_;
+  Content content_;
+  std::unique_ptr<ProgressiveRenderer> renderer_;  // after the content it draws from
+  View drawn_view_;
+  FrameReport report_;
+  std::uint64_t view_points_ = 0;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace stipple

@@ -1,0 +1,174 @@
+// The viewer: a window, a cloud, a camera, and the loop that ties them.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/frame/budget.h"
+#include "src/run/view_run.h"
+#include "src/viewer/display.h"
+#include "src/viewer/flight.h"
+#include "src/viewer/gui.h"
+#include "src/viewer/panel.h"
+#include "src/viewer/pixel_reader.h"
+#include "src/viewer/pointer.h"
+#include "src/viewer/resolution.h"
+#include "src/viewer/rig.h"
+#include "src/viewer/settings.h"
+#include "src/viewer/stage.h"
+#include "src/viewer/window.h"
+#include "src/viewer/workshop.h"
+
+namespace stipple {
+
+struct ViewerOptions {
+  std::vector<std::string> inputs;  // may be none: files can be dropped
+  std::string color;
+  std::optional<Mode> mode;  // none: hybrid, or hierarchical where the input is an octree on disk
+  MethodOptions method;
+  RasterizerKind rasterizer = RasterizerKind::compute;
+  BudgetPolicy policy;
+  double point_size = 1.0;
+  std::uint32_t background = 0x808080;
+  std::optional<Camera> camera;    // to begin with; none: sees the whole cloud
+  std::optional<CameraPath> path;  // to be flown on a key
+  RecentInputs recent;
+  bool panel_shown = true;
+  std::string screenshot;    // taken when nothing is left to draw; empty: none
+  bool with_panels = false;  // pictured as well
+  bool exit_after_screenshot = false;
+};
+
+class Viewer {
+ public:
+  // `window` must outlive the viewer. Throws Error as loading shaders does.
+  Viewer(Window& window, ViewerOptions options);
+
+  // Waits for something to happen, at most `most_seconds`, and shows it. False when it is time to end. Throws Error
+  // when a screenshot that it was to end after cannot be had.
+  bool step(double most_seconds = 1.0);
+  // Until the end.
+  void run();
+
+  void open(const std::vector<std::string>& inputs);
+  void execute(Command command);
+  // What is drawn, without panels.
+  Image picture();
+  // What is drawn, panels and all. Between drawing and swapping.
+  Image window_picture() const;
+
+  // As they are now.
+  ViewerSettings settings() const;
+  const RecentInputs& recent() const { return options_.recent; }
+
+  // For tests and panels
+  const Stage& stage() const { return stage_; }
+  const Rig& rig() const { return rig_; }
+  const std::vector<Pick>& picks() const { return picks_; }
+  const std::optional<std::array<std::string, 3>>& under_cursor() const { return under_cursor_; }
+  View view() const { return rig_.view(size_); }
+  // Nothing moves, is loaded or left to draw.
+  bool at_rest() const;
+  // Pixels of the window that a pixel of the picture is wide and high while the camera moves.
+  int resolution() const { return resolution_.divisor(); }
+  // At which the right side begins.
+  int divider_column() const { return static_cast<int>(std::lround(divider_ * size_.x)); }
+  std::uint64_t frames_shown() const { return frames_shown_; }
+  const std::string& note() const { return note_; }
+
+ private:
+  void take_finished();
+  void take(const finished::Beginning& beginning);
+  void take(const finished::Cloud& cloud);
+  void take(const finished::Failure& failure);
+  void take(const finished::Description& description);
+  void enter(const WorldBox& box, const Camera& home);
+  void reopen(const std::string& color);
+
+  void take_event(const InputEvent& event);
+  void press(const InputEvent& event);
+  void blink();
+  bool shows_both() const;
+  void follow(const Gesture& gesture);
+  void fly();
+  void face(double yaw_deg, double pitch_deg);
+  void go_home();
+  void next_color();
+  void record();
+  void replay();
+  void set_point_size(double pixels);
+
+  void read_answers();
+  void ask_under_cursor();
+  glm::dvec3 world_of(const PickedPixel& pixel) const;
+  std::array<std::string, 3> place_of(const PickedPixel& pixel) const;
+  void pick(const PickedPixel& pixel);
+
+  void show_frame();
+  void draw_cloud();
+  void notice_motion();
+  bool moving() const;
+  void learn_from(double ms, bool was_moving);
+  glm::ivec2 frame_pixel(const glm::dvec2& place) const;
+  void show_panels();
+  void grant(const PanelWishes& wishes);
+  void set_policy(const BudgetPolicy& policy);
+  Display::Scene scene() const;
+  std::uint32_t budget() const;
+  void take_screenshot_if_due();
+  void write_screenshot(const std::string& path);
+  void copy_command();
+
+  Window& window_;
+  ViewerOptions options_;
+  Gui gui_;
+  Display display_;
+  Workshop workshop_;
+  Stage stage_;  // after the workshop, whose work it owns
+  Rig rig_;
+  Flight flight_;
+  Pointer pointer_;
+  double divider_ = 0.5;  // share of the width
+  bool drags_divider_ = false;
+  bool right_meant_ = false;  // by the key being looked at
+  enum class Shown { both, left, right } shown_sides_ = Shown::both;
+
+  glm::ivec2 size_{1};    // of the last frame
+  bool entered_ = false;  // the open cloud
+  bool awaited_ = false;  // it is being read, and what its header says is in sight
+  std::optional<Camera> home_;
+  double home_aspect_ = 1.0;
+
+  std::optional<BudgetController> controller_;
+  Resolution resolution_;
+  Camera last_camera_;
+  double moved_at_ = -1.0;       // window seconds
+  double frame_seconds_ = 0.0;   // smoothed, while frames follow each other
+  double last_frame_ = 0.0;      // when
+  std::vector<float> frame_ms_;  // of the latest frames that drew points
+  int frames_to_show_ = 0;       // of panels that are not settled
+  std::uint64_t frames_shown_ = 0;
+
+  PixelReader hover_;
+  PixelReader ahead_;
+  PixelReader clicked_;
+  bool clicked_for_pivot_ = false;
+  glm::dvec2 cursor_{0.0};
+  bool hover_stale_ = true;
+  std::optional<PickedPixel> hovered_;
+  std::optional<std::array<std::string, 3>> under_cursor_;
+  std::optional<glm::dvec3> grabbed_;
+  double flown_until_ = -1.0;  // window seconds; below 0: not flying
+  std::vector<Pick> picks_;
+
+  bool keys_shown_ = false;
+  std::string note_;
+  std::string screenshot_;  // due
+  bool quit_ = false;
+};
+
+}  // namespace stipple
