@@ -38,9 +38,12 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
       ->capture_default_str();
   command.add_option("--memory", options.memory,
                      "Main memory that points may take, with k, M or G for powers of 1024 bytes; the program itself "
-                     "comes on top. A cloud that needs more is refused, unless it is an octree drawn in mode "
-                     "hierarchical: then the budget is cut to what fits. Default: no limit.");
-  command.add_option("--gpu-memory", options.gpu_memory, "The same for memory of the GPU. Default: no limit.");
+                     "comes on top. A cloud that needs more is refused, unless it is an octree on disk drawn in mode "
+                     "hybrid, hierarchical or lod: then as much of it is held as fits. Default: no limit.");
+  command.add_option(
+      "--gpu-memory", options.gpu_memory,
+      "The same for memory of the GPU. Default: no limit, but 1 GiB for what mode hybrid holds of an octree on "
+      "disk.");
   command
       .add_option(
           "--no-skip", options.no_skip,

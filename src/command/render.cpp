@@ -131,10 +131,11 @@ void write_arrays(const Options& options, const FrameData& frame, const Grid& gr
   write_npy(options.position_out, std::span<const double>(positions), {height, width, 3});
 }
 
-// Points a frame: as asked for, or what the memory allows where points stream.
+// Points a frame: as asked for, or what the memory allows where all of them stream every frame.
 std::uint32_t budget_in_use(const Options& options, const Dataset& dataset) {
   const std::uint32_t budget = budget_of(options.draw).points;
-  return dataset.in_memory() ? budget : budget_within(limits_of(options.draw), budget);
+  const bool streams = options.mode == name_of(Mode::hierarchical) && !dataset.in_memory();
+  return streams ? budget_within(limits_of(options.draw), budget) : budget;
 }
 
 void run(const Options& options) {
