@@ -102,11 +102,12 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
   taken_.clear();
   if (table_.size == 0) return {};
   const Tested tested{table_.boxes, table_.log_pixels, states_, sight_, silhouettes_, prospects_, new_view};
-  if (new_view) sight_.fill(0);
-  if (new_view)
+  if (new_view) {
+    sight_.fill(0);
     outline(tested, 0, table_.size);
-  else
+  } else {
     outline(tested, open_ - added_, added_);
+  }
   added_ = 0;
   if (sees_depth()) test(tested, open_);
   score(view, new_view ? table_.size : open_, new_view);

@@ -60,13 +60,15 @@ std::vector<LodSource::Part> TreeLod::parts_of(const std::vector<VisibleCluster>
 
 bool TreeLod::draw(std::span<const Part> parts, Selection& selection) {
   ++frame_;
+  // First, so that none of them gives way to what arrives
   for (const Part& part : parts) {
     const auto resident = residents_.find(part.key);
-    if (resident != residents_.end()) resident->second.frame = frame_;
+    if (resident != residents_.end())
+      resident->second.frame = frame_;
+    else
+      request(part);
   }
-  for (const Part& part : parts)
-    if (!residents_.contains(part.key)) request(part);
-  receive(selection.items.empty());
+  receive();
   bool all = true;
   for (const Part& part : parts) {
     const auto resident = residents_.find(part.key);
@@ -74,7 +76,6 @@ bool TreeLod::draw(std::span<const Part> parts, Selection& selection) {
       all = false;
       continue;
     }
-    resident->second.frame = frame_;
     for (const ClusterRun& run : resident->second.runs) pool_.append_items(run, selection.items);
     selection.points += part.count;
   }
@@ -86,8 +87,8 @@ void TreeLod::request(const Part& part) {
     reader_.request({part.key, supply_.node(node_of(part.key)), first_of(part.key), part.count});
 }
 
-void TreeLod::receive(bool patient) {
-  for (PartReader::Part& part : reader_.collect(patient)) {
+void TreeLod::receive() {
+  for (PartReader::Part& part : reader_.collect(true)) {
     loading_.erase(part.request.key);
     if (part.failure) std::rethrow_exception(part.failure);
     put(part);

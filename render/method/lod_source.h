@@ -78,7 +78,7 @@ class TreeLod final : public LodSource {
 
   std::vector<Part> parts_of(const std::vector<VisibleCluster>& clusters) const;
   void request(const Part& part);
-  void receive(bool patient);
+  void receive();
   void put(PartReader::Part& part);
 
   std::shared_ptr<const TreeStore> store_;
