@@ -17,7 +17,8 @@ struct Stretch {
 struct Totals {
   std::uint32_t points, stretches, open;
   std::int32_t cut;
-  std::uint32_t allowance, factor;
+  std::uint32_t allowance;
+  float factor;
 };
 struct Sight {
   std::uint32_t visible, occluded;
