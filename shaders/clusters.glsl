@@ -40,8 +40,8 @@ struct Prospect {
   float open;      // share of the places under its outline where it may be seen
 };
 
-const uint kOpen = 0u;
-const uint kOutside = 1u;
+const uint kOutside = 0u;
+const uint kOpen = 1u;
 const uint kOccluded = 2u;
 
 // Points of one cluster to draw in this frame.

@@ -99,7 +99,10 @@ void main() {
   state.start += state.drawn;
   if (state.start >= box.count) state.start -= box.count;
   state.drawn = 0u;
-  state.seen = 1.0;
+  // What the last view taught fades, but tells new clusters from those that are carried or hidden: along a path that is worth
+  // 0.5 to 1 dB, and fading faster or slower is worth less
+  const float kFading = 0.9;
+  state.seen = state.status == kOutside ? 1.0 : mix(state.status == kOccluded ? 0.0 : state.seen, 1.0, kFading);
   Outline outline = outline_of(box);
   // Rows without points are free
   state.status = outline.outside || box.count == 0u ? kOutside : kOpen;

@@ -20,11 +20,11 @@ layout(location = 3) uniform bool all;    // not of the open clusters, but of al
 // classes to a halving.
 uint urgency_of(ClusterState state, Prospect prospect) {
   const float kHalf = float(kUrgencies / 2u);
-  if (state.drawn == 0u && (prospect.open == 1.0 || !by_yield))
+  if (state.drawn == 0u && (state.seen * prospect.open == 1.0 || !by_yield))
     return kUrgencies - 1u - uint(clamp(16.0 * log2(prospect.distance / near), 0.0, kHalf - 1.0));
   if (!by_yield) return 0u;
   // What is nearly hidden waits: it may soon be hidden wholly
-  float share = state.drawn == 0u ? prospect.open : state.seen * prospect.open;
+  float share = state.seen * prospect.open;
   return uint(clamp(kHalf - 1.0 + 50.0 * log2(max(share, 1e-6)), 0.0, kHalf - 1.0));
 }
 

@@ -26,8 +26,8 @@ struct Sight {
 struct ChunkBegin {
   std::uint32_t point, stretch;
 };
-constexpr std::uint32_t kOpen = 0;
-constexpr std::uint32_t kOutside = 1;
+constexpr std::uint32_t kOutside = 0;
+constexpr std::uint32_t kOpen = 1;
 constexpr std::size_t kUrgencies = 1024;
 constexpr std::size_t kSummaryHead = sizeof(Totals) + ClusterTable::kMostChunks * sizeof(ChunkBegin);
 
@@ -313,9 +313,13 @@ void ClusterSelector::learn(const FeedbackTarget& frame) {
       dispatch_items((taken_[c].stretches + 1) / 2, 64);
     }
   }
+  see(frame);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void ClusterSelector::see(const FeedbackTarget& frame) {
   if (options_.skip_occluded) pyramid_.build(frame);
   drawn_ = &frame;
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 }  // namespace stipple

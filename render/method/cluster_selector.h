@@ -70,6 +70,9 @@ class ClusterSelector {
   // must stay as it is until the next select() or forget().
   void learn(const FeedbackTarget& frame);
 
+  // The frame shows what is carried into this view.
+  void see(const FeedbackTarget& frame);
+
   // Places in the chunks' buffers of the points taken.
   const GpuBuffer& places() const { return places_; }
   // Bytes of GPU memory it takes.

@@ -23,6 +23,8 @@ class Hybrid final : public Method {
   bool keeps_still_view() const override { return keep_still_; }
   void forget() override { selector_.forget(); }
   void start_view(const View&) override;
+  bool selects_by_what_is_carried() const override { return true; }
+  void carry_drawn(const FeedbackTarget& frame) override { selector_.see(frame); }
   std::vector<DrawItem> warm_up(const View&, const FeedbackTarget&) override;
   Selection select(std::uint32_t budget) override;
   void frame_drawn(const FeedbackTarget& frame) override;

@@ -51,6 +51,10 @@ class Method {
   // Has each pass of its own run once, on the finished `frame` of `view`, whose block is bound, so that the driver's
   // compiling stays outside of timed parts. Gives what is to be drawn for the same reason. forget() follows.
   virtual std::vector<DrawItem> warm_up(const View&, const FeedbackTarget&) { return {}; }
+  // Whether select() wants to know what is carried into a new view: then that is drawn first, and carry_drawn() called.
+  virtual bool selects_by_what_is_carried() const { return false; }
+  // The frame shows what is carried; the view block is bound.
+  virtual void carry_drawn(const FeedbackTarget&) {}
   // The next points for this view, at most `budget`. Valid until the next call. The view block is bound.
   virtual Selection select(std::uint32_t budget) = 0;
   // The frame with the selected points is drawn, or one of another method that this one goes on from; the view block is

@@ -99,13 +99,22 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   if (view_drawn_ && method_->finished()) return {0, true};
 
   uniforms_.set(make_view_block(view, grid_, point_size_));
-  Selection selection = method_->select(budget);
   kept_ = view_drawn_ && method_->keeps_still_view();
-  if (kept_) {
-    rasterizer_->add(current(), selection.items);
-  } else {
+  if (!kept_) {
     current_ = 1 - current_;
     if (current().size() != view.size) targets_[current_].emplace(view.size, rasterizer_->depth_storage());
+  }
+  const bool by_what_is_carried = !kept_ && !blank_ && method_->selects_by_what_is_carried();
+  if (by_what_is_carried) {
+    std::vector<DrawItem> carried;
+    append_carry(carried);
+    rasterizer_->draw(current(), carried);
+    method_->carry_drawn(current());
+  }
+  Selection selection = method_->select(budget);
+  if (kept_ || by_what_is_carried) {
+    rasterizer_->add(current(), selection.items);
+  } else {
     if (!blank_) append_carry(selection.items);
     rasterizer_->draw(current(), selection.items);
   }
