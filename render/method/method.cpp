@@ -90,6 +90,12 @@ std::unique_ptr<Method> make_lod(const Dataset& dataset, const MethodOptions& op
 
 }  // namespace
 
+void count_splats(SplatRange range, SelectionCounts& counts) {
+  ++(range == SplatRange::far    ? counts.clusters_far
+     : range == SplatRange::near ? counts.clusters_near
+                                 : counts.clusters_across);
+}
+
 std::span<const Mode> all_modes() {
   return kModes;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/frame/camera.h"
+#include "render/frame/point_size.h"
 #include "render/raster/rasterizer.h"
 #include "render/store/dataset.h"
 
@@ -34,8 +35,16 @@ struct SelectionCounts {
   std::uint64_t nodes_visible{};  // hybrid: clusters
   // Of those, not drawn further because all they have left is hidden; hybrid: clusters.
   std::uint64_t nodes_occluded{};
+  // With splats: of the clusters in sight of hierarchical and lod, those whose points are all squares, all splats, or
+  // may be both.
+  std::uint64_t clusters_far{};
+  std::uint64_t clusters_near{};
+  std::uint64_t clusters_across{};
   std::uint64_t bytes_read{};  // from disk, the opening of the tree included, or streamed from main memory to the GPU
 };
+
+// Counts a cluster among those.
+void count_splats(SplatRange range, SelectionCounts& counts);
 
 class Method {
  public:
@@ -44,6 +53,8 @@ class Method {
   virtual Carry carry() const = 0;
   // Nothing is carried into the next frame: it starts from an empty target, as the first did.
   virtual void forget() {}
+  // How large points are drawn from the next view on.
+  virtual void set_point_size(const PointSize&) {}
   // The view changed: every point may be worth drawing again.
   virtual void start_view(const View& view) = 0;
   // The next points for this view, at most `budget`. Valid until the next call. The view block is bound.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "octree/core/error.h"
 
 namespace stipple {
@@ -13,15 +15,26 @@ int pixels_of(const FeedbackTarget& frame) {
 
 }  // namespace
 
-ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, double point_size)
+ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid,
+                                         const PointSize& point_size)
     : method_(&method),
-      rasterizer_(make_rasterizer(rasterizer, point_size != 1.0)),
+      rasterizer_(make_rasterizer(rasterizer, point_size.varies())),
       grid_(grid),
       point_size_(point_size) {
   const glm::dvec2 sizes = rasterizer_->point_sizes();
-  if (!(point_size > 0.0 && point_size >= sizes.x && point_size <= sizes.y))
-    throw UsageError(fmt::format("point size {}: rasterizer {} draws points of {} to {} pixels here", point_size,
+  if (!(point_size.pixels > 0.0 && point_size.pixels >= sizes.x && point_size.pixels <= sizes.y))
+    throw UsageError(fmt::format("point size {}: rasterizer {} draws points of {} to {} pixels here", point_size.pixels,
                                  name_of(rasterizer), sizes.x, sizes.y));
+  if (!(point_size.world >= 0.0 && std::isfinite(point_size.world)))
+    throw UsageError(fmt::format("splat size {}: must be 0 or above", point_size.world));
+  // GL_POINTS are drawn a pixel larger on each side than the splat
+  if (point_size.world > 0.0 && PointSize::kLargestSplat + 2.0 > sizes.y)
+    throw UsageError(
+        fmt::format("splat size {}: rasterizer {} draws points of up to {} pixels here, and splats may take "
+                    "{}. Draw with --raster compute.",
+                    point_size.world, name_of(rasterizer), sizes.y, PointSize::kLargestSplat + 2.0));
+  if (point_size.spreads()) once_.emplace();
+  method.set_point_size(point_size_);
 }
 
 void ProgressiveRenderer::resize(const glm::ivec2& size) {
@@ -39,11 +52,17 @@ void ProgressiveRenderer::make_carry() {
 void ProgressiveRenderer::prepare_carry() {
   if (!vertices_) return;
   if (carry_room_ < pixels_of(current())) make_carry();
+  choose_carried(current());
   vertices_->prepare(current());
+}
+
+void ProgressiveRenderer::choose_carried(FeedbackTarget& frame) {
+  if (once_) once_->choose(frame);
 }
 
 void ProgressiveRenderer::use(Method& method) {
   method_ = &method;
+  method_->set_point_size(point_size_);
   method_->forget();
   if (!targets_[0]) return;
   vertices_.reset();
@@ -52,7 +71,10 @@ void ProgressiveRenderer::use(Method& method) {
     prepare_carry();
   }
   if (view_.size == glm::ivec2(0)) return;
-  if (method_->carry() == Carry::indices) method_->frame_drawn(current());
+  if (method_->carry() == Carry::indices) {
+    choose_carried(current());
+    method_->frame_drawn(current());
+  }
   view_drawn_ = false;
   method_->start_view(view_);
 }
@@ -62,6 +84,7 @@ void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
     case Carry::none:
       break;
     case Carry::grid:
+      choose_carried(previous());
       items.push_back(CarriedGrid{&previous()});
       break;
     case Carry::vertices:
@@ -83,14 +106,14 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   uniforms_.set(make_view_block(view, grid_, point_size_));
   rasterizer_->draw(current(), items);
   if (vertices_) {
-    vertices_->prepare(current());
+    prepare_carry();
     // The second time the carried point is drawn, too
     rasterizer_->draw(current(), items);
     current().clear();
-    vertices_->prepare(current());
+    prepare_carry();
   }
   current().clear();
-  coverage_.count(current());
+  coverage_.count(current().ids());
   method_->forget();
   view_ = {};
   glFinish();
@@ -112,6 +135,7 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   if (current().size() != view.size) targets_[current_].emplace(view.size, rasterizer_->depth_storage());
   append_carry(selection.items);
   rasterizer_->draw(current(), selection.items);
+  if (method_->carry() == Carry::indices) choose_carried(current());
   method_->frame_drawn(current());
   prepare_carry();
   view_drawn_ = true;
@@ -123,11 +147,11 @@ FrameData ProgressiveRenderer::read() {
 }
 
 std::uint64_t ProgressiveRenderer::covered_pixels() {
-  return coverage_.count(current());
+  return coverage_.count(current().ids());
 }
 
 std::uint64_t ProgressiveRenderer::points_reprojected() {
-  return method_->carry() == Carry::none ? 0 : coverage_.count(previous());
+  return method_->carry() == Carry::none ? 0 : coverage_.count(previous().carried_ids());
 }
 
 }  // namespace stipple

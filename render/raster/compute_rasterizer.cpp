@@ -5,12 +5,8 @@
 namespace stipple {
 namespace {
 
-// Compiles the variants of a pass.
-auto compiler(bool splats) {
-  return [splats](std::vector<ShaderDefine> defines) {
-    if (splats) defines.push_back({"SPLATS"});
-    return Program::compute("raster_compute.glsl", defines);
-  };
+Program compile_raster(const std::vector<ShaderDefine>& defines) {
+  return Program::compute("raster_compute.glsl", defines);
 }
 
 void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> items) {
@@ -34,9 +30,9 @@ void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> i
 }  // namespace
 
 ComputeRasterizer::ComputeRasterizer(bool splats)
-    : depth_("PASS_DEPTH", compiler(splats)),
-      claim_("PASS_CLAIM", compiler(splats)),
-      repeat_("PASS_REPEAT", compiler(splats)) {}
+    : depth_("PASS_DEPTH", splats, compile_raster),
+      claim_("PASS_CLAIM", splats, compile_raster),
+      repeat_("PASS_REPEAT", splats, compile_raster) {}
 
 void ComputeRasterizer::draw(FeedbackTarget& target, std::span<const DrawItem> items) {
   constexpr GLbitfield kPixels = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;

@@ -30,7 +30,7 @@ void bind(const CarriedVertices& vertices) {
 
 void bind(const CarriedGrid& grid) {
   grid.previous->points().bind(0);
-  grid.previous->ids().bind(1);
+  grid.previous->carried_ids().bind(1);
 }
 
 void bind(const PickedPoints& picked) {
@@ -54,7 +54,8 @@ void bind(const CarriedIndices& carried) {
 }  // namespace
 
 void SourcePrograms::use_for(const DrawItem& item) const {
-  programs_[item.index()].use();
+  const auto* range = std::get_if<PointRange>(&item);
+  (range && range->one_pixel && range_of_pixels_ ? *range_of_pixels_ : programs_[item.index()]).use();
   std::visit([](const auto& each) { bind(each); }, item);
 }
 

@@ -14,7 +14,7 @@ class MemorySupply final : public PointSupply {
 
   std::vector<VisibleCluster> visible(const View& view) override;
   std::size_t visible_nodes() const override { return visible_nodes_; }
-  void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) override;
+  void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) override;
   std::vector<PointPiece> collect(std::uint32_t most) override;
   std::uint64_t read_ahead(std::uint32_t budget) const override { return budget; }
   std::uint64_t bytes_read() const override { return bytes_read_; }

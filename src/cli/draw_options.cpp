@@ -23,6 +23,12 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
   command.add_option("--fps", options.fps, "Instead of a fixed budget: steer it to this many frames a second.")
       ->excludes(budget);
   command.add_option("--point-size", options.point_size, "Edge of a point's square in pixels.")->capture_default_str();
+  command.add_option(
+      "--splat-size", options.splat_size,
+      fmt::format("Draw near points as round splats of this diameter, in the cloud's own units (metres, as a rule): "
+                  "those whose splat is larger on the screen than --point-size, up to {} pixels. As in 0.05. Default: "
+                  "no splats.",
+                  PointSize::kLargestSplat));
   command.add_option("--color", options.color,
                      "Colour by rgb, height or any attribute (`stipple info` lists them). Default: the first there is "
                      "of rgb, intensity, height.");
@@ -67,6 +73,11 @@ BudgetPolicy budget_of(const DrawOptions& options) {
   policy.points = static_cast<std::uint32_t>(points);
   if (!options.fps.empty()) policy.frames_per_second = parse_positive("--fps", options.fps);
   return policy;
+}
+
+PointSize point_size_of(const DrawOptions& options) {
+  const double pixels = parse_positive("--point-size", options.point_size);
+  return {pixels, options.splat_size.empty() ? 0.0 : parse_positive("--splat-size", options.splat_size)};
 }
 
 MemoryLimits limits_of(const DrawOptions& options) {
