@@ -39,21 +39,15 @@ ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasteriz
 
 void ProgressiveRenderer::resize(const glm::ivec2& size) {
   for (auto& target : targets_) target.emplace(size, rasterizer_->depth_storage());
+  blank_ = true;
   vertices_.reset();
-  if (method_->carry() == Carry::vertices) make_carry();
+  if (method_->carry() == Carry::vertices) make_carry(current());
   method_->forget();
 }
 
-void ProgressiveRenderer::make_carry() {
-  vertices_.emplace(current().size());
-  carry_room_ = pixels_of(current());
-}
-
-void ProgressiveRenderer::prepare_carry() {
-  if (!vertices_) return;
-  if (carry_room_ < pixels_of(current())) make_carry();
-  choose_carried(current());
-  vertices_->prepare(current());
+void ProgressiveRenderer::make_carry(const FeedbackTarget& frame) {
+  vertices_.emplace(frame.size());
+  carry_room_ = pixels_of(frame);
 }
 
 void ProgressiveRenderer::choose_carried(FeedbackTarget& frame) {
@@ -66,10 +60,7 @@ void ProgressiveRenderer::use(Method& method) {
   method_->forget();
   if (!targets_[0]) return;
   vertices_.reset();
-  if (method_->carry() == Carry::vertices) {
-    make_carry();
-    prepare_carry();
-  }
+  if (method_->carry() == Carry::vertices) make_carry(current());
   if (view_.size == glm::ivec2(0)) return;
   if (method_->carry() == Carry::indices) {
     choose_carried(current());
@@ -84,35 +75,41 @@ void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
     case Carry::none:
       break;
     case Carry::grid:
-      choose_carried(previous());
+      // Points of all sizes keep each other waiting where most pixels of the grid carry none
+      if (once_) return append_vertices(items);
       items.push_back(CarriedGrid{&previous()});
       break;
     case Carry::vertices:
-      items.push_back(vertices_->vertices());
+      append_vertices(items);
       break;
     case Carry::indices:
       break;
   }
 }
 
+void ProgressiveRenderer::append_vertices(std::vector<DrawItem>& items) {
+  if (!vertices_ || carry_room_ < pixels_of(previous())) make_carry(previous());
+  choose_carried(previous());
+  vertices_->prepare(previous());
+  items.push_back(vertices_->vertices());
+}
+
 void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   if (!targets_[0] || size != current().size()) resize(size);
-  GpuBuffer point(sizeof(PackedPoint));
-  point.fill(0);
-  std::vector<DrawItem> items{PointRange{.points = &point, .count = 1}};
-  append_carry(items);
+  GpuBuffer zeros(sizeof(PackedPoint));
+  zeros.fill(0);
+  const std::vector<DrawItem> items{PointRange{.points = &zeros, .count = 1},
+                                    PickedPoints{.points = &zeros, .ids = &zeros, .places = &zeros, .count = 1}};
   // The point lies in front of the eye, so that no pass ends early
   const View view{.eye = grid_.world_from_grid(glm::ivec3(0)) - glm::dvec3(0, 10, 0), .near = 1.0, .size = size};
   uniforms_.set(make_view_block(view, grid_, point_size_));
-  rasterizer_->draw(current(), items);
-  if (vertices_) {
-    prepare_carry();
-    // The second time the carried point is drawn, too
-    rasterizer_->draw(current(), items);
-    current().clear();
-    prepare_carry();
-  }
-  current().clear();
+  rasterizer_->draw(previous(), items);
+  std::vector<DrawItem> carried = method_->warm_up(view, previous());
+  append_carry(carried);
+  rasterizer_->draw(current(), carried);
+  if (method_->keeps_still_view()) rasterizer_->add(current(), items);
+  for (auto& target : targets_) target->clear();
+  blank_ = true;
   coverage_.count(current().ids());
   method_->forget();
   view_ = {};
@@ -131,13 +128,18 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
 
   uniforms_.set(make_view_block(view, grid_, point_size_));
   Selection selection = method_->select(budget);
-  current_ = 1 - current_;
-  if (current().size() != view.size) targets_[current_].emplace(view.size, rasterizer_->depth_storage());
-  append_carry(selection.items);
-  rasterizer_->draw(current(), selection.items);
+  kept_ = view_drawn_ && method_->keeps_still_view();
+  if (kept_) {
+    rasterizer_->add(current(), selection.items);
+  } else {
+    current_ = 1 - current_;
+    if (current().size() != view.size) targets_[current_].emplace(view.size, rasterizer_->depth_storage());
+    if (!blank_) append_carry(selection.items);
+    rasterizer_->draw(current(), selection.items);
+  }
   if (method_->carry() == Carry::indices) choose_carried(current());
   method_->frame_drawn(current());
-  prepare_carry();
+  blank_ = false;
   view_drawn_ = true;
   return {selection.points, method_->finished()};
 }
@@ -151,7 +153,7 @@ std::uint64_t ProgressiveRenderer::covered_pixels() {
 }
 
 std::uint64_t ProgressiveRenderer::points_reprojected() {
-  return method_->carry() == Carry::none ? 0 : coverage_.count(previous().carried_ids());
+  return kept_ || method_->carry() == Carry::none ? 0 : coverage_.count(previous().carried_ids());
 }
 
 }  // namespace stipple

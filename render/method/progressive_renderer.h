@@ -36,8 +36,9 @@ class ProgressiveRenderer {
   // as the new method does. The methods must draw the same points, with the same ids.
   void use(Method& method);
 
-  // Draws the next frame: the last one, of whatever size, reprojected into `view`, and at most `budget` more points. A
-  // converged, still view costs nothing. Commands are issued, not awaited.
+  // Draws the next frame: the last one, of whatever size, reprojected into `view` or, where the view is the same and
+  // the method likes it, as it stands; and at most `budget` more points. A converged, still view costs nothing.
+  // Commands are issued, not awaited.
   FrameReport draw(const View& view, std::uint32_t budget);
 
   // The last frame, on the GPU; null before the first. Valid until the next draw().
@@ -48,17 +49,18 @@ class ProgressiveRenderer {
   std::uint64_t covered_pixels();
 
   // Points of the frame before the last that were drawn again in the last: one for each of its pixels where points
-  // cover no more than one; else one for each point, and a few twice. 0 for methods that carry nothing. Waits for the
-  // GPU.
+  // cover no more than one; else one for each point, and a few twice. 0 where the last stood, and for methods that
+  // carry nothing. Waits for the GPU.
   std::uint64_t points_reprojected();
 
  private:
   void resize(const glm::ivec2& size);
-  void make_carry();
-  void prepare_carry();
+  // With room for this frame.
+  void make_carry(const FeedbackTarget& frame);
   // Called for a finished frame before it is carried.
   void choose_carried(FeedbackTarget& frame);
   void append_carry(std::vector<DrawItem>& items);
+  void append_vertices(std::vector<DrawItem>& items);
   FeedbackTarget& current() { return *targets_[current_]; }
   FeedbackTarget& previous() { return *targets_[1 - current_]; }
 
@@ -74,7 +76,9 @@ class ProgressiveRenderer {
   int carry_room_ = 0;  // pixels
   std::size_t current_ = 0;
   View view_;                // of size 0: none
+  bool blank_ = true;        // no frame was drawn yet
   bool view_drawn_ = false;  // whether the last frame shows view_
+  bool kept_ = false;        // the last frame is the one before and what was added to it
 };
 
 }  // namespace stipple

@@ -5,8 +5,13 @@
 namespace stipple {
 namespace {
 
-Program compile_raster(const std::vector<ShaderDefine>& defines) {
+Program compile_pass(const std::vector<ShaderDefine>& defines) {
   return Program::compute("raster_compute.glsl", defines);
+}
+
+Program compile_over_picture(std::vector<ShaderDefine> defines) {
+  defines.push_back({"OVER_PICTURE"});
+  return compile_pass(defines);
 }
 
 void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> items) {
@@ -30,20 +35,20 @@ void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> i
 }  // namespace
 
 ComputeRasterizer::ComputeRasterizer(bool splats)
-    : depth_("PASS_DEPTH", splats, compile_raster),
-      claim_("PASS_CLAIM", splats, compile_raster),
-      repeat_("PASS_REPEAT", splats, compile_raster) {}
+    : depth_("PASS_DEPTH", splats, compile_pass),
+      depth_over_picture_("PASS_DEPTH", splats, compile_over_picture),
+      claim_("PASS_CLAIM", splats, compile_pass),
+      repeat_("PASS_REPEAT", splats, compile_pass) {}
 
-void ComputeRasterizer::draw(FeedbackTarget& target, std::span<const DrawItem> items) {
+void ComputeRasterizer::rasterize(FeedbackTarget& target, std::span<const DrawItem> items, bool over_picture) {
   constexpr GLbitfield kPixels = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
   constexpr GLbitfield kNotes = GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT;
-  target.clear();
   target.depth().bind_image(0, GL_READ_WRITE);
   target.ids().bind_image(1, GL_READ_WRITE);
   target.points().bind_image(2, GL_WRITE_ONLY);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 
-  dispatch_points(depth_, items);
+  dispatch_points(over_picture ? depth_over_picture_ : depth_, items);
   glMemoryBarrier(kPixels);
   notes_.begin();
   dispatch_points(claim_, items);

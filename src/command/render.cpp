@@ -170,6 +170,7 @@ void run(const Options& options) {
              {"budget", budget_in_use(options, dataset)},
              {"skip_occluded", method.skip_occluded},
              {"by_yield", method.by_yield},
+             {"keep_still", method.keep_still},
              {"point_size", point_size.pixels},
              {"splat_size", point_size.world},
              {"background", options.draw.background},
