@@ -20,14 +20,14 @@ void Hierarchical::set_point_size(const PointSize& point_size) {
 }
 
 SelectionCounts Hierarchical::counts() const {
-  SelectionCounts counts = splats_;
+  SelectionCounts counts = counts_;
   counts.nodes_visible = supply_->visible_nodes();
   counts.bytes_read = supply_->bytes_read();
   return counts;
 }
 
 void Hierarchical::start_view(const View& view) {
-  splats_ = {};
+  counts_ = {};
   readings_.clear();
   next_ = 0;
   to_request_ = 0;
@@ -40,7 +40,8 @@ void Hierarchical::append(const std::vector<VisibleCluster>& clusters) {
     const double allowed = std::clamp(std::ceil(cluster.pixels), kLeastRound, 1e9);
     readings_.push_back({cluster.handle, cluster.count, 0, std::min(static_cast<std::uint32_t>(allowed), cluster.count),
                          cluster.distance, point_size_.pixels == 1.0 && cluster.splats == SplatRange::far});
-    if (point_size_.world > 0.0) count_splats(cluster.splats, splats_);
+    if (point_size_.world > 0.0) count_splats(cluster.splats, counts_);
+    counts_.pixels_estimated += cluster.pixels;
     to_request_ += cluster.count;
   }
 }

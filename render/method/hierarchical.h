@@ -46,7 +46,7 @@ class Hierarchical final : public Method {
   std::unique_ptr<PointSupply> supply_;
   StreamBuffer stream_;
   PointSize point_size_;
-  SelectionCounts splats_;         // of this view's clusters
+  SelectionCounts counts_;         // of this view's clusters
   std::vector<Reading> readings_;  // front to back
   std::size_t next_ = 0;           // reading to go on with in this round
   std::uint64_t to_request_ = 0;   // points not requested yet for this view

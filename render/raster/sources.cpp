@@ -41,7 +41,7 @@ void bind(const CarriedVertices& vertices) {
 
 void bind(const CarriedGrid& grid) {
   grid.previous->points().bind(0);
-  grid.previous->carried_ids().bind(1);
+  grid.previous->ids().bind(1);
 }
 
 void bind(const PickedPoints& picked) {

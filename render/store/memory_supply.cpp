@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "octree/select/density.h"
 #include "octree/select/order.h"
 #include "render/frame/view_frustum.h"
 
@@ -20,9 +19,8 @@ std::vector<VisibleCluster> MemorySupply::visible(const View& view) {
       const Cluster& cluster = octree_.clusters[c];
       const WorldBox box = world_box(octree_.grid, cluster.box);
       if (!may_see(frustum, box)) continue;
-      clusters.push_back({c, cluster.count,
-                          estimated_pixels(cluster.profile, octree_.cube.edge, nearest_pixel_size(view, box)),
-                          visible.distance, splat_range(point_size_, view, box)});
+      clusters.push_back({c, cluster.count, estimate(cluster, box, octree_.cube.edge, view), visible.distance,
+                          splat_range(point_size_, view, box)});
     }
   }
   return clusters;

@@ -10,7 +10,8 @@ namespace stipple {
 class MemorySupply final : public PointSupply {
  public:
   // `points` in store order of the octree. Both must outlive the supply.
-  MemorySupply(const PointSet& points, const Octree& octree) : points_(points), octree_(octree) {}
+  MemorySupply(const PointSet& points, const Octree& octree, DensityEstimate density = DensityEstimate::box_count)
+      : PointSupply(density), points_(points), octree_(octree) {}
 
   std::vector<VisibleCluster> visible(const View& view) override;
   std::size_t visible_nodes() const override { return visible_nodes_; }

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "octree/cloud/grid.h"
+#include "octree/select/density.h"
+#include "octree/tree/octree.h"
 #include "render/frame/camera.h"
 #include "render/frame/point_size.h"
 #include "render/store/stream_buffer.h"
@@ -22,6 +24,7 @@ struct VisibleCluster {
 
 class PointSupply {
  public:
+  explicit PointSupply(DensityEstimate density) : density_(density) {}
   virtual ~PointSupply() = default;
 
   // How large points are drawn from the next call of visible() on.
@@ -49,7 +52,13 @@ class PointSupply {
   virtual std::uint64_t bytes_read() const = 0;
 
  protected:
+  // Pixels that the points of a cluster, whose box in the world is `box`, are estimated to cover.
+  double estimate(const Cluster& cluster, const WorldBox& box, double root_edge, const View& view) const;
+
   PointSize point_size_;
+
+ private:
+  DensityEstimate density_;
 };
 
 }  // namespace stipple

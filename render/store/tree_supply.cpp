@@ -29,8 +29,13 @@ GridBox grid_box_around(const Grid& grid, const WorldBox& box) {
 
 }  // namespace
 
-TreeSupply::TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before)
-    : store_(std::move(store)), colors_(std::move(colors)), bytes_before_(bytes_before), tree_(store_) {
+TreeSupply::TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before,
+                       DensityEstimate density)
+    : PointSupply(density),
+      store_(std::move(store)),
+      colors_(std::move(colors)),
+      bytes_before_(bytes_before),
+      tree_(store_) {
   if (const auto index = find_attribute(store_->info().source.schema, colors_.attribute)) attributes_.push_back(*index);
   for (std::size_t i = 0; i < kReadThreads; ++i)
     threads_.emplace_back([this, looks_first = i % 2 == 0] { work(looks_first); });
@@ -140,8 +145,7 @@ void TreeSupply::append_clusters(const KnownTree::Sight& sight, std::vector<Visi
   for (const Cluster& cluster : details->clusters) {
     const WorldBox box = world_box(info.source.grid, cluster.box);
     if (!may_see(frustum_, box)) continue;
-    append(cluster.first, cluster.count, cluster.box,
-           estimated_pixels(cluster.profile, info.cube.edge, nearest_pixel_size(view_, box)));
+    append(cluster.first, cluster.count, cluster.box, estimate(cluster, box, info.cube.edge, view_));
   }
 }
 

@@ -30,7 +30,8 @@ class TreeSupply final : public PointSupply {
   };
 
   // `bytes_before`: of what was read from the store so far, what bytes_read() leaves out.
-  TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before = 0);
+  TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before = 0,
+             DensityEstimate density = DensityEstimate::box_count);
   ~TreeSupply() override;
   TreeSupply(const TreeSupply&) = delete;
   TreeSupply& operator=(const TreeSupply&) = delete;

@@ -42,6 +42,13 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
                   "How mode unstructured carries what the last frame shows: vertex (Schuetz and others 2019) or index "
                   "(Schuetz and Wimmer 2018; not for octrees on disk).")
       ->capture_default_str();
+  command
+      .add_option(
+          "--density", options.density,
+          "How mode hierarchical estimates the pixels that a cluster's points can cover, by which it rations "
+          "them: box-count (cells of a pixel's size that they occupy) or uniform (as if they were spread evenly "
+          "over their box, as Tredinnick and others 2016 do).")
+      ->capture_default_str();
   command.add_option("--memory", options.memory,
                      "Main memory that points may take, with k, M or G for powers of 1024 bytes; the program itself "
                      "comes on top. A cloud that needs more is refused, unless it is an octree on disk drawn in mode "
@@ -96,6 +103,9 @@ MethodOptions method_options_of(const DrawOptions& options) {
   if (options.carry != "vertex" && options.carry != "index")
     throw UsageError(fmt::format("--carry {}: expected vertex or index", options.carry));
   method.carry_indices = options.carry == "index";
+  if (options.density != "box-count" && options.density != "uniform")
+    throw UsageError(fmt::format("--density {}: expected box-count or uniform", options.density));
+  method.density = options.density == "uniform" ? DensityEstimate::uniform : DensityEstimate::box_count;
   for (const std::string& name : options.no_skip) {
     if (name == "occlusion")
       method.skip_occluded = false;

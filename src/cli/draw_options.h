@@ -25,6 +25,7 @@ struct DrawOptions {
   std::string background = "808080";
   std::uint64_t seed = 0;
   std::string carry = "vertex";
+  std::string density = "box-count";
   std::string memory;
   std::string gpu_memory;
   std::vector<std::string> no_skip;

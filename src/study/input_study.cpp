@@ -218,7 +218,8 @@ std::string InputStudy::provenance(const Route& route, const Curve& curve) const
             {"splat_size", settings_.point_size.world},
             {"background", fmt::format("{:06x}", settings_.background)},
             {"seed", settings_.method.seed},
-            {"carry", settings_.method.carry_indices ? "index" : "vertex"}};
+            {"carry", settings_.method.carry_indices ? "index" : "vertex"},
+            {"density", settings_.method.density == DensityEstimate::uniform ? "uniform" : "box-count"}};
   // That of a picture on a path is where the path has it in that frame
   if (curve.regime == name_of(Regime::path)) {
     json.erase("view");

@@ -67,6 +67,7 @@ Json settings_json(const StudySettings& settings) {
           {"color", settings.color},
           {"seed", settings.method.seed},
           {"carry", settings.method.carry_indices ? "index" : "vertex"},
+          {"density", settings.method.density == DensityEstimate::uniform ? "uniform" : "box-count"},
           {"flip", settings.flip_every_frame ? "every frame"
                                              : "along paths every frame, else the first, the first at 30, 35, 40, 45 "
                                                "dB, the last"},

@@ -46,6 +46,16 @@ class RenderCommand : public testing::Test {
   const std::string city_ = city_file(folder_, kPoints);
 };
 
+TEST_F(RenderCommand, EitherDensityEndsWithTheSamePicture) {
+  const std::string hierarchical = "--mode hierarchical --budget 3k --stats " + path("s.json") + " --density ";
+  const Image uniform = picture("uniform.png", hierarchical + "uniform");
+  const Json stats = json_file(path("s.json"));
+  EXPECT_EQ(picture("box-count.png", hierarchical + "box-count").rgb, uniform.rgb);
+  EXPECT_EQ(stats.at("density"), "uniform");
+  EXPECT_GT(stats.at("pixels_estimated"), json_file(path("s.json")).at("pixels_estimated"));
+  expect_wrong_usage("--density dense", "--density");
+}
+
 TEST_F(RenderCommand, NearSplatsAreTheSamePictureInEveryMode) {
   const std::string near = "--splat-size 0.5 --camera " +
                            write("low.json", R"({"eye": [565300, 5934150, 12], "target": [565310, 5934300, 14]})") +
