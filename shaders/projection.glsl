@@ -13,7 +13,9 @@ layout(std140, binding = 0) uniform ViewBlock {
   vec4 forward;      // unit vector
   ivec2 size;        // pixels
   float near;        // world units
-  float point_size;  // pixels
+  float point_size;  // pixels: edge of a far point's square
+  float splat_at_near;  // pixels: diameter of a splat on the near plane; 0: there are no splats
+  float largest_splat;  // pixels
 } view;
 
 vec3 world_from_eye(ivec3 p) {
@@ -41,4 +43,18 @@ bool project(ivec3 p, out vec3 place) {
   precise float depth = clip.z / clip.w;
   place = vec3(pixels, depth);
   return all(greaterThanEqual(pixels, vec2(0.0))) && all(lessThan(pixels, vec2(view.size)));
+}
+
+// The diameter in pixels of the round splat that a point at this (reversed) depth is drawn as, or 0 where it is far: a square
+// of view.point_size. Depends on the depth alone, so that a point has the same size whoever draws it.
+float splat_diameter(float depth) {
+  precise float diameter = depth * view.splat_at_near;
+  return diameter > view.point_size ? min(diameter, view.largest_splat) : 0.0;
+}
+
+// A splat covers the pixels whose centre lies in its disc, and that into which its own centre falls.
+bool in_splat(vec2 place, float diameter, ivec2 pixel) {
+  precise vec2 offset = vec2(pixel) + 0.5 - place;
+  precise float squared = 4.0 * dot(offset, offset);
+  return squared <= diameter * diameter || pixel == ivec2(floor(place));
 }

@@ -1,6 +1,6 @@
 // The compute rasterizer. PASS_DEPTH: nearest depth of every pixel; OVER_PICTURE: whoever owned a
 // pixel farther away does so no longer. PASS_CLAIM: lowest id at that depth, and its point.
-// PASS_REPEAT: winners write again, when there were more ties than notes. SPLATS: points may be larger than a pixel.
+// PASS_REPEAT: winners write again, when there were more ties than notes. SPLATS: points may be no single pixels.
 #include "projection.glsl"
 #include "point_source.glsl"
 #ifdef SOURCE_GRID
@@ -47,12 +47,18 @@ void draw(PointIndex index) {
   if (!fetch_point(index, point, id) || !project(point.xyz, place)) return;
   uint depth = floatBitsToUint(place.z);
 #ifdef SPLATS
+  float diameter = splat_diameter(place.z);
+  if (diameter == 0.0 && view.point_size == 1.0) {
+    cover(ivec2(place.xy), depth, point, id);
+    return;
+  }
   // Pixels whose centre lies in the square around the place
-  float half_size = 0.5 * view.point_size;
+  float half_size = 0.5 * max(diameter, view.point_size);
   ivec2 low = max(ivec2(floor(place.xy - half_size + 0.5)), ivec2(0));
   ivec2 high = min(ivec2(floor(place.xy + half_size - 0.5)), view.size - 1);
   for (int y = low.y; y <= high.y; ++y)
-    for (int x = low.x; x <= high.x; ++x) cover(ivec2(x, y), depth, point, id);
+    for (int x = low.x; x <= high.x; ++x)
+      if (diameter == 0.0 || in_splat(place.xy, diameter, ivec2(x, y))) cover(ivec2(x, y), depth, point, id);
 #else
   cover(ivec2(place.xy), depth, point, id);
 #endif

@@ -60,8 +60,10 @@ Outline outline_of(ClusterBox box) {
   outline.nearest = nearest - slack.z;
   outline.bounded = outline.nearest > view.near;
   vec2 most = max(abs(from), abs(to));
+  // The nearest of its points are the largest
+  float largest = max(view.point_size, splat_diameter(view.near / outline.nearest * (1.0 + kDepthRounding)));
   // Rasterizers may snap points to sixteenths of a pixel, the coarsest that OpenGL allows
-  vec2 margin = 0.125 + 0.5 * max(view.point_size - 1.0, 0.0) + 0.5 * vec2(view.size) * (slack.xy + most * slack.z) / outline.nearest;
+  vec2 margin = 0.125 + 0.5 * max(largest - 1.0, 0.0) + 0.5 * vec2(view.size) * (slack.xy + most * slack.z) / outline.nearest;
   outline.low = (from * 0.5 + 0.5) * vec2(view.size) - margin;
   outline.high = (to * 0.5 + 0.5) * vec2(view.size) + margin;
   return outline;

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "octree/cloud/grid.h"
 #include "octree/tree/octree.h"
 
 namespace stipple {
+
+// Which of the two below.
+enum class DensityEstimate : std::uint8_t { box_count, uniform };
 
 // From a box-count profile: the number of occupied cells as large as a pixel, which is `pixel_size` world units wide
 // where the points are, less those that hide behind others. Between two levels it is interpolated in logarithms; pixels

@@ -55,6 +55,9 @@ struct StoredNode {
   std::uint64_t points = 0;       // what the hierarchy says; of a located node, what there is
   std::uint64_t byte_offset = 0;  // of its points, in their file
   std::uint64_t byte_size = 0;
+  // Tight around all points of the node and of those below it, in trees whose cells are no octants; there the cell
+  // says no more than the way from the root.
+  std::optional<GridBox> box;
 
   bool is_leaf() const {
     for (const std::uint32_t child : children)

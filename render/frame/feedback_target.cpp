@@ -23,6 +23,11 @@ void read_texture(const Texture2D& texture, GLenum format, GLenum type, std::siz
   }
 }
 
+void clear_ids(const Texture2D& ids) {
+  const GLuint no_point = kNoPoint;
+  glClearTexImage(ids.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &no_point);
+}
+
 }  // namespace
 
 FeedbackTarget::FeedbackTarget(const glm::ivec2& size, DepthStorage storage)
@@ -35,8 +40,8 @@ FeedbackTarget::FeedbackTarget(const glm::ivec2& size, DepthStorage storage)
 
 void FeedbackTarget::clear() {
   // The points need no clearing: they are read only where there is an id
-  const GLuint no_point = kNoPoint;
-  glClearTexImage(ids_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &no_point);
+  clear_ids(ids_);
+  if (carried_ids_) clear_ids(*carried_ids_);
   if (storage_ == DepthStorage::attachment) {
     const GLfloat far = 0.0f;
     glClearTexImage(depth_.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far);
@@ -44,6 +49,14 @@ void FeedbackTarget::clear() {
     const GLuint far = 0;
     glClearTexImage(depth_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &far);
   }
+}
+
+const Texture2D& FeedbackTarget::make_carried_ids() {
+  if (!carried_ids_) {
+    carried_ids_.emplace(GL_R32UI, size());
+    clear_ids(*carried_ids_);
+  }
+  return *carried_ids_;
 }
 
 FrameData FeedbackTarget::read(double near) const {

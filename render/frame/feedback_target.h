@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "render/frame/frame_data.h"
 #include "render/frame/view_block.h"
@@ -22,6 +23,11 @@ class FeedbackTarget {
   const Texture2D& points() const { return points_; }
   const Texture2D& ids() const { return ids_; }
   const Texture2D& depth() const { return depth_; }
+  // Like ids(), but of a point that covers several pixels only one keeps its id, so that the next frame draws it once
+  // (CarryOnce). Where points cover no more than a pixel: ids().
+  const Texture2D& carried_ids() const { return carried_ids_ ? *carried_ids_ : ids_; }
+  // Where these go, empty at first.
+  const Texture2D& make_carried_ids();
   DepthStorage depth_storage() const { return storage_; }
 
   // No point anywhere.
@@ -34,6 +40,7 @@ class FeedbackTarget {
   Texture2D points_;
   Texture2D ids_;
   Texture2D depth_;
+  std::optional<Texture2D> carried_ids_;
 };
 
 }  // namespace stipple

@@ -23,12 +23,6 @@ std::size_t checked_pixels(const glm::ivec2& size) {
   return pixels_of(size);
 }
 
-void dispatch_pixels_of(const FeedbackTarget& frame) {
-  frame.points().bind(0);
-  frame.ids().bind(1);
-  dispatch_pixels(frame.size());
-}
-
 }  // namespace
 
 VertexCarry::VertexCarry(const glm::ivec2& size)
@@ -46,7 +40,9 @@ void VertexCarry::prepare(const FeedbackTarget& frame) {
   ids_.bind_storage(1);
   command_.bind_storage(2);
   prepare_.use();
-  dispatch_pixels_of(frame);
+  frame.points().bind(0);
+  frame.carried_ids().bind(1);
+  dispatch_pixels(frame.size());
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   finish_.use();
   glUniform1ui(0, kRasterGroupSize);
@@ -56,11 +52,12 @@ void VertexCarry::prepare(const FeedbackTarget& frame) {
 
 CoverageCounter::CoverageCounter() : counter_(16), program_(Program::compute("count_covered.glsl")) {}
 
-std::uint32_t CoverageCounter::count(const FeedbackTarget& frame) {
+std::uint32_t CoverageCounter::count(const Texture2D& ids) {
   counter_.fill(0);
   counter_.bind_storage(0);
   program_.use();
-  dispatch_pixels_of(frame);
+  ids.bind(1);
+  dispatch_pixels(ids.size());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   std::uint32_t covered = 0;
   counter_.read(0, &covered, sizeof covered);

@@ -29,7 +29,7 @@ class VertexCarry {
 class CoverageCounter {
  public:
   CoverageCounter();
-  std::uint32_t count(const FeedbackTarget& frame);
+  std::uint32_t count(const Texture2D& ids);
 
  private:
   GpuBuffer counter_;

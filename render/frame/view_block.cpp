@@ -4,7 +4,7 @@
 
 namespace stipple {
 
-ViewBlock make_view_block(const View& view, const Grid& grid, double point_size) {
+ViewBlock make_view_block(const View& view, const Grid& grid, const PointSize& point_size) {
   const glm::dvec3 cell =
       glm::clamp(glm::floor(grid.grid_from_world(view.eye)), glm::dvec3(std::numeric_limits<std::int32_t>::min()),
                  glm::dvec3(std::numeric_limits<std::int32_t>::max()));
@@ -19,7 +19,10 @@ ViewBlock make_view_block(const View& view, const Grid& grid, double point_size)
   block.forward = glm::vec4(glm::vec3(view.forward), 0.0f);
   block.size = view.size;
   block.near = static_cast<float>(view.near);
-  block.point_size = static_cast<float>(point_size);
+  block.point_size = static_cast<float>(point_size.pixels);
+  block.splat_at_near = static_cast<float>(point_size.splat_at_one(view) / view.near);
+  block.largest_splat = static_cast<float>(PointSize::kLargestSplat);
+  block.padding = {};
   return block;
 }
 

@@ -6,6 +6,7 @@
 
 #include "octree/cloud/grid.h"
 #include "render/frame/camera.h"
+#include "render/frame/point_size.h"
 #include "render/gpu/buffer.h"
 
 namespace stipple {
@@ -22,11 +23,14 @@ struct ViewBlock {
   glm::ivec2 size;
   float near;
   float point_size;
+  float splat_at_near;
+  float largest_splat;
+  glm::vec2 padding;
 };
-static_assert(sizeof(ViewBlock) == 128);
+static_assert(sizeof(ViewBlock) == 144);
 
 // The eye's cell is clamped to int32; what is beyond stays in the residual.
-ViewBlock make_view_block(const View& view, const Grid& grid, double point_size);
+ViewBlock make_view_block(const View& view, const Grid& grid, const PointSize& point_size);
 
 // The block on the GPU.
 class ViewUniforms {

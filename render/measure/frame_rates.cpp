@@ -19,14 +19,16 @@ using Verdicts = std::array<std::uint64_t, kVerdicts>;
 
 class Judge {
  public:
-  Judge(const FrameData& test, const FrameData& reference, const View& view, const Grid& grid, double point_size,
-        const RateTolerances& tolerances)
+  Judge(const FrameData& test, const FrameData& reference, const View& view, const Grid& grid,
+        const PointSize& point_size, const RateTolerances& tolerances)
       : test_(test),
         reference_(reference),
         view_(view),
         grid_(grid),
         eye_(grid.grid_from_world(view.eye)),
-        reach_(0.5 * point_size + tolerances.place),
+        pixels_(point_size.pixels),
+        splat_at_one_(point_size.splat_at_one(view)),
+        place_(tolerances.place),
         depth_(tolerances.depth) {}
 
   Verdict verdict(int x, int y, std::size_t i) const {
@@ -50,7 +52,12 @@ class Judge {
     if (!(std::abs(static_cast<double>(test_.depth[i]) - depth) <= depth_ * depth)) return true;
     const double place_x = 0.5 * view_.size.x * (1.0 + glm::dot(view_.right, r) * view_.cot_x / depth);
     const double place_y = 0.5 * view_.size.y * (1.0 - glm::dot(view_.up, r) * view_.cot_y / depth);
-    return std::max(std::abs(place_x - (x + 0.5)), std::abs(place_y - (y + 0.5))) > reach_;
+    return std::max(std::abs(place_x - (x + 0.5)), std::abs(place_y - (y + 0.5))) > reach(depth);
+  }
+
+  // How far from its place a point may be drawn, in pixels.
+  double reach(double depth) const {
+    return 0.5 * std::max(pixels_, std::min(splat_at_one_ / depth, PointSize::kLargestSplat)) + place_;
   }
 
   const FrameData& test_;
@@ -58,7 +65,9 @@ class Judge {
   const View& view_;
   const Grid& grid_;
   glm::dvec3 eye_;
-  double reach_;
+  double pixels_;
+  double splat_at_one_;
+  double place_;
   double depth_;
 };
 
@@ -76,7 +85,7 @@ std::vector<double> depth_errors(const FrameData& test, const FrameData& referen
 }  // namespace
 
 FrameRates frame_rates(const FrameData& test, const FrameData& reference, const View& view, const Grid& grid,
-                       double point_size, const RateTolerances& tolerances) {
+                       const PointSize& point_size, const RateTolerances& tolerances) {
   require_same_size(test.size, reference.size);
   require_same_size(test.size, view.size);
   const Judge judge(test, reference, view, grid, point_size, tolerances);

@@ -6,6 +6,7 @@
 #include "octree/cloud/grid.h"
 #include "render/frame/camera.h"
 #include "render/frame/frame_data.h"
+#include "render/frame/point_size.h"
 
 namespace stipple {
 
@@ -24,7 +25,8 @@ struct RateTolerances {
 //
 //   hole         R, not T
 //   ghost        T, and not R:                     nothing is there
-//                or max |x - c| > point_size / 2 + place, or |z(t) - d| > depth * d, or t lies before the near plane:
+//                or max |x - c| > s / 2 + place, s the point's size on the screen at d, or |z(t) - d| > depth * d, or t
+//                lies before the near plane:
 //                                                  stale, t is not seen here from this view
 //                or z(t) < (1 - depth) * z(r):     in front of the nearest point there is
 //   see_through  z(t) > (1 + depth) * z(r):        what lies behind, through a surface not yet closed
@@ -41,9 +43,10 @@ struct FrameRates {
   double depth_error_p95 = 0.0;
 };
 
-// Both frames show the same cloud, whose grid is given, from `view`; the reference is render_reference's. `point_size`
-// in pixels. Not symmetric. All cores; the result does not depend on their number. Throws Error when the sizes differ.
+// Both frames show the same cloud, whose grid is given, from `view`; the reference is render_reference's, with this
+// `point_size`. Not symmetric. All cores; the result does not depend on their number. Throws Error when the sizes
+// differ.
 FrameRates frame_rates(const FrameData& test, const FrameData& reference, const View& view, const Grid& grid,
-                       double point_size = 1.0, const RateTolerances& tolerances = {});
+                       const PointSize& point_size = {}, const RateTolerances& tolerances = {});
 
 }  // namespace stipple

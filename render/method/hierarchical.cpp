@@ -14,7 +14,20 @@ constexpr double kLeastRound = 16.0;
 Hierarchical::Hierarchical(std::unique_ptr<PointSupply> supply, std::uint32_t largest_budget)
     : supply_(std::move(supply)), stream_(std::clamp(largest_budget, 1u, StreamBuffer::kLargestSection)) {}
 
+void Hierarchical::set_point_size(const PointSize& point_size) {
+  point_size_ = point_size;
+  supply_->set_point_size(point_size);
+}
+
+SelectionCounts Hierarchical::counts() const {
+  SelectionCounts counts = counts_;
+  counts.nodes_visible = supply_->visible_nodes();
+  counts.bytes_read = supply_->bytes_read();
+  return counts;
+}
+
 void Hierarchical::start_view(const View& view) {
+  counts_ = {};
   readings_.clear();
   next_ = 0;
   to_request_ = 0;
@@ -26,7 +39,9 @@ void Hierarchical::append(const std::vector<VisibleCluster>& clusters) {
   for (const VisibleCluster& cluster : clusters) {
     const double allowed = std::clamp(std::ceil(cluster.pixels), kLeastRound, 1e9);
     readings_.push_back({cluster.handle, cluster.count, 0, std::min(static_cast<std::uint32_t>(allowed), cluster.count),
-                         cluster.distance});
+                         cluster.distance, point_size_.pixels == 1.0 && cluster.splats == SplatRange::far});
+    if (point_size_.world > 0.0) count_splats(cluster.splats, counts_);
+    counts_.pixels_estimated += cluster.pixels;
     to_request_ += cluster.count;
   }
 }
@@ -54,7 +69,7 @@ void Hierarchical::request_up_to(std::uint64_t under_way) {
     Reading& reading = readings_[next_];
     const auto count = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(reading.allowed - reading.requested, under_way - under_way_));
-    if (count > 0) supply_->request(reading.handle, reading.requested, count);
+    if (count > 0) supply_->request(reading.handle, reading.requested, count, reading.one_pixel);
     reading.requested += count;
     under_way_ += count;
     to_request_ -= count;
@@ -68,10 +83,22 @@ Selection Hierarchical::select(std::uint32_t budget) {
   if (budget == 0) return selection;
   take_discovered();
   request_up_to(supply_->read_ahead(budget));
-  const std::vector<PointPiece> pieces = supply_->collect(budget);
+  std::vector<PointPiece> pieces = supply_->collect(budget);
+  // What takes less work to draw stands together
+  const auto others = std::ranges::stable_partition(pieces, &PointPiece::one_pixel).begin();
+  std::uint32_t of_one_pixel = 0;
+  for (auto piece = pieces.begin(); piece != others; ++piece) of_one_pixel += piece->count;
   for (const PointPiece& piece : pieces) selection.points += piece.count;
   under_way_ -= selection.points;
-  if (selection.points > 0) selection.items.push_back(stream_.stream(pieces));
+  if (selection.points == 0) return selection;
+  PointRange all = stream_.stream(pieces);
+  PointRange pixels = all;
+  pixels.count = of_one_pixel;
+  pixels.one_pixel = true;
+  all.first += of_one_pixel;
+  all.count -= of_one_pixel;
+  for (const PointRange& range : {pixels, all})
+    if (range.count > 0) selection.items.push_back(range);
   return selection;
 }
 

@@ -22,12 +22,11 @@ class Hierarchical final : public Method {
   Hierarchical(std::unique_ptr<PointSupply> supply, std::uint32_t largest_budget);
 
   Carry carry() const override { return Carry::grid; }
+  void set_point_size(const PointSize& point_size) override;
   void start_view(const View& view) override;
   Selection select(std::uint32_t budget) override;
   bool finished() const override { return to_request_ == 0 && under_way_ == 0 && !supply_->searching(); }
-  SelectionCounts counts() const override {
-    return {.nodes_visible = supply_->visible_nodes(), .bytes_read = supply_->bytes_read()};
-  }
+  SelectionCounts counts() const override;
 
  private:
   struct Reading {
@@ -36,6 +35,7 @@ class Hierarchical final : public Method {
     std::uint32_t requested;  // of them for this view
     std::uint32_t allowed;    // of them to be requested by the end of this round
     double distance;          // from the eye
+    bool one_pixel;           // see PointRange
   };
 
   void append(const std::vector<VisibleCluster>& clusters);
@@ -45,6 +45,8 @@ class Hierarchical final : public Method {
 
   std::unique_ptr<PointSupply> supply_;
   StreamBuffer stream_;
+  PointSize point_size_;
+  SelectionCounts counts_;         // of this view's clusters
   std::vector<Reading> readings_;  // front to back
   std::size_t next_ = 0;           // reading to go on with in this round
   std::uint64_t to_request_ = 0;   // points not requested yet for this view

@@ -43,7 +43,7 @@ void IndexCarry::prepare(const FeedbackTarget& frame) {
   slot_of_.bind_storage(0);
   places_.bind_storage(1);
   commands_.bind_storage(2);
-  frame.ids().bind(1);
+  frame.carried_ids().bind(1);
   count_.use();
   dispatch_pixels(frame.size());
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

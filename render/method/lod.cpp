@@ -10,6 +10,13 @@ void Lod::start_view(const View& view) {
   finished_ = false;
 }
 
+SelectionCounts Lod::counts() const {
+  SelectionCounts counts{.nodes_visible = parts_.size(), .bytes_read = source_->bytes_read()};
+  if (with_splats_)
+    for (const LodSource::Part& part : parts_) count_splats(part.splats, counts);
+  return counts;
+}
+
 void Lod::sort() {
   std::ranges::sort(parts_, [](const LodSource::Part& a, const LodSource::Part& b) {
     return a.urgency != b.urgency ? a.urgency > b.urgency : a.key < b.key;

@@ -18,12 +18,14 @@ class Lod final : public Method {
   explicit Lod(std::unique_ptr<LodSource> source) : source_(std::move(source)) {}
 
   Carry carry() const override { return Carry::none; }
+  void set_point_size(const PointSize& point_size) override {
+    with_splats_ = point_size.world > 0.0;
+    source_->set_point_size(point_size);
+  }
   void start_view(const View& view) override;
   Selection select(std::uint32_t budget) override;
   bool finished() const override { return finished_; }
-  SelectionCounts counts() const override {
-    return {.nodes_visible = parts_.size(), .bytes_read = source_->bytes_read()};
-  }
+  SelectionCounts counts() const override;
 
  private:
   void sort();
@@ -33,6 +35,7 @@ class Lod final : public Method {
   std::unique_ptr<LodSource> source_;
   std::vector<LodSource::Part> parts_;  // in sight, the most urgent first
   bool finished_ = false;
+  bool with_splats_ = false;
 };
 
 }  // namespace stipple

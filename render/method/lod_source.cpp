@@ -15,9 +15,11 @@ std::vector<LodSource::Part> MemoryLod::visible(const View& view) {
   for (const VisibleNode& visible : visible_nodes(octree_, frustum_of(view), view.eye)) {
     const Node& node = octree_.nodes[visible.node];
     const double spacing = std::ldexp(octree_.cube.edge, -node.level - kLatticeLevels);
-    for (std::uint32_t c = node.first_cluster; c < node.first_cluster + node.cluster_count; ++c)
-      parts.push_back(
-          {octree_.clusters[c].first, octree_.clusters[c].count, spacing / std::max(visible.distance, view.near)});
+    for (std::uint32_t c = node.first_cluster; c < node.first_cluster + node.cluster_count; ++c) {
+      const Cluster& cluster = octree_.clusters[c];
+      parts.push_back({cluster.first, cluster.count, spacing / std::max(visible.distance, view.near),
+                       splat_range(point_size_, view, world_box(octree_.grid, cluster.box))});
+    }
   }
   return parts;
 }
@@ -28,9 +30,11 @@ bool MemoryLod::draw(std::span<const Part> parts, Selection& selection) {
   // Neighbours are drawn as one
   for (std::size_t i = 0; i < in_order.size();) {
     const std::size_t first = in_order[i].key;
+    const bool pixels = one_pixel(in_order[i]);
     std::size_t end = first;
-    for (; i < in_order.size() && in_order[i].key == end; ++i) end += in_order[i].count;
-    cloud_.append_items(first, end - first, selection.items);
+    for (; i < in_order.size() && in_order[i].key == end && one_pixel(in_order[i]) == pixels; ++i)
+      end += in_order[i].count;
+    cloud_.append_items(first, end - first, selection.items, pixels);
     selection.points += end - first;
   }
   return true;
@@ -52,8 +56,8 @@ std::vector<LodSource::Part> TreeLod::parts_of(const std::vector<VisibleCluster>
   std::vector<Part> parts;
   for (const VisibleCluster& cluster : clusters) {
     const TreeSupply::Part& part = supply_.part(cluster.handle);
-    parts.push_back(
-        {part_key(part.node, part.first), cluster.count, supply_.projected_spacing(part.node, cluster.distance)});
+    parts.push_back({part_key(part.node, part.first), cluster.count,
+                     supply_.projected_spacing(part.node, cluster.distance), cluster.splats});
   }
   return parts;
 }
@@ -76,7 +80,7 @@ bool TreeLod::draw(std::span<const Part> parts, Selection& selection) {
       all = false;
       continue;
     }
-    for (const ClusterRun& run : resident->second.runs) pool_.append_items(run, selection.items);
+    for (const ClusterRun& run : resident->second.runs) pool_.append_items(run, selection.items, one_pixel(part));
     selection.points += part.count;
   }
   return all;

@@ -24,10 +24,13 @@ class LodSource {
     PartKey key = 0;
     std::uint32_t count = 0;  // points
     double urgency = 0.0;     // the distance of its points from each other over that from the eye
+    SplatRange splats = SplatRange::far;
   };
 
   virtual ~LodSource() = default;
 
+  // How large points are drawn from the next call of visible() on.
+  virtual void set_point_size(const PointSize& point_size) { point_size_ = point_size; }
   // The parts that a new view may see, as far as they are known.
   virtual std::vector<Part> visible(const View& view) = 0;
   // Those that became known since.
@@ -39,6 +42,12 @@ class LodSource {
   virtual std::uint64_t bytes_read() const { return 0; }
   // What one draw() has room for, in slots of SlottedPoints.
   virtual std::uint64_t room() const { return std::numeric_limits<std::uint64_t>::max(); }
+
+ protected:
+  // See PointRange.
+  bool one_pixel(const Part& part) const { return point_size_.pixels == 1.0 && part.splats == SplatRange::far; }
+
+  PointSize point_size_;
 };
 
 // All points lie on the GPU.
@@ -63,6 +72,10 @@ class TreeLod final : public LodSource {
   TreeLod(std::shared_ptr<const TreeStore> store, const ColorMap& colors, std::uint64_t bytes_before,
           std::uint32_t slots);
 
+  void set_point_size(const PointSize& point_size) override {
+    LodSource::set_point_size(point_size);
+    supply_.set_point_size(point_size);
+  }
   std::vector<Part> visible(const View& view) override;
   std::vector<Part> discovered() override { return parts_of(supply_.discovered()); }
   bool searching() const override { return supply_.searching(); }

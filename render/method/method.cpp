@@ -90,6 +90,12 @@ std::unique_ptr<Method> make_lod(const Dataset& dataset, const MethodOptions& op
 
 }  // namespace
 
+void count_splats(SplatRange range, SelectionCounts& counts) {
+  ++(range == SplatRange::far    ? counts.clusters_far
+     : range == SplatRange::near ? counts.clusters_near
+                                 : counts.clusters_across);
+}
+
 std::span<const Mode> all_modes() {
   return kModes;
 }
@@ -138,7 +144,7 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
     case Mode::hierarchical:
       if (!octree) throw Error("mode hierarchical needs an octree");
       // A section for more points than there are would stay empty
-      return std::make_unique<Hierarchical>(std::make_unique<MemorySupply>(points, *octree),
+      return std::make_unique<Hierarchical>(std::make_unique<MemorySupply>(points, *octree, options.density),
                                             std::min(budget_within({.gpu = options.limits.gpu}, options.largest_budget),
                                                      static_cast<std::uint32_t>(points.size())));
     case Mode::unstructured:
@@ -161,7 +167,7 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
 std::unique_ptr<Method> make_method(Mode mode, const Dataset& dataset, const MethodOptions& options) {
   if (mode == Mode::hierarchical && dataset.tree)
     return std::make_unique<Hierarchical>(
-        std::make_unique<TreeSupply>(dataset.tree, dataset.colors, dataset.bytes_to_load),
+        std::make_unique<TreeSupply>(dataset.tree, dataset.colors, dataset.bytes_to_load, options.density),
         budget_within(options.limits, options.largest_budget));
   if (mode == Mode::lod && dataset.tree) return make_lod(dataset, options);
   if (mode == Mode::hybrid && dataset.tree) return make_hybrid(dataset, options);

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "octree/select/density.h"
 #include "render/frame/camera.h"
+#include "render/frame/point_size.h"
 #include "render/raster/rasterizer.h"
 #include "render/store/dataset.h"
 
@@ -17,8 +19,8 @@ namespace stipple {
 
 // How the last frame gets into the next.
 enum class Carry {
-  none,      // not at all: each frame starts from nothing
-  grid,      // T16: a screen-filling grid of points reads the last target
+  none,  // not at all: each frame starts from nothing
+  grid,  // T16: a screen-filling grid of points reads the last target; as vertices where points cover several pixels
   vertices,  // S19: a prepare pass collects the visible points in a vertex buffer
   indices,   // S18: as their places in buffers that the method has; it draws them itself
 };
@@ -34,8 +36,17 @@ struct SelectionCounts {
   std::uint64_t nodes_visible{};  // hybrid: clusters
   // Of those, not drawn further because all they have left is hidden; hybrid: clusters.
   std::uint64_t nodes_occluded{};
+  // With splats: of the clusters in sight of hierarchical and lod, those whose points are all squares, all splats, or
+  // may be both.
+  std::uint64_t clusters_far{};
+  std::uint64_t clusters_near{};
+  std::uint64_t clusters_across{};
+  double pixels_estimated{};   // hierarchical: that the clusters in sight can cover, by its estimate of their density
   std::uint64_t bytes_read{};  // from disk, the opening of the tree included, or streamed from main memory to the GPU
 };
+
+// Counts a cluster among those.
+void count_splats(SplatRange range, SelectionCounts& counts);
 
 class Method {
  public:
@@ -46,6 +57,8 @@ class Method {
   virtual bool keeps_still_view() const { return false; }
   // Nothing is carried into the next frame: it starts from an empty target, as the first did.
   virtual void forget() {}
+  // How large points are drawn from the next view on.
+  virtual void set_point_size(const PointSize&) {}
   // The view changed: every point may be worth drawing again.
   virtual void start_view(const View& view) = 0;
   // Has each pass of its own run once, on the finished `frame` of `view`, whose block is bound, so that the driver's
@@ -81,10 +94,11 @@ struct MethodOptions {
   std::uint64_t seed = 0;                  // of the shuffle
   std::uint32_t largest_budget = 1 << 20;  // points select() may be asked for; limits may allow fewer
   MemoryLimits limits{};
-  bool skip_occluded = true;   // hybrid: leave out clusters that are wholly hidden
-  bool by_yield = true;        // hybrid: clusters whose points are seen go first
-  bool keep_still = true;      // hybrid: a frame of a still view adds to the last one
-  bool carry_indices = false;  // unstructured: as S18, not as S19
+  bool skip_occluded = true;                             // hybrid: leave out clusters that are wholly hidden
+  bool by_yield = true;                                  // hybrid: clusters whose points are seen go first
+  bool keep_still = true;                                // hybrid: a frame of a still view adds to the last one
+  bool carry_indices = false;                            // unstructured: as S18, not as S19
+  DensityEstimate density = DensityEstimate::box_count;  // hierarchical: how many points are worth a round
 };
 
 // Points (and the tree, where the mode needs one: points then stand in its store order) must outlive the method.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "octree/core/error.h"
 
 namespace stipple {
@@ -13,38 +15,57 @@ int pixels_of(const FeedbackTarget& frame) {
 
 }  // namespace
 
-ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, double point_size)
+ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid,
+                                         const PointSize& point_size)
     : method_(&method),
-      rasterizer_(make_rasterizer(rasterizer, point_size != 1.0)),
+      rasterizer_(make_rasterizer(rasterizer, point_size.varies())),
       grid_(grid),
       point_size_(point_size) {
   const glm::dvec2 sizes = rasterizer_->point_sizes();
-  if (!(point_size > 0.0 && point_size >= sizes.x && point_size <= sizes.y))
-    throw UsageError(fmt::format("point size {}: rasterizer {} draws points of {} to {} pixels here", point_size,
+  if (!(point_size.pixels > 0.0 && point_size.pixels >= sizes.x && point_size.pixels <= sizes.y))
+    throw UsageError(fmt::format("point size {}: rasterizer {} draws points of {} to {} pixels here", point_size.pixels,
                                  name_of(rasterizer), sizes.x, sizes.y));
+  if (!(point_size.world >= 0.0 && std::isfinite(point_size.world)))
+    throw UsageError(fmt::format("splat size {}: must be 0 or above", point_size.world));
+  // GL_POINTS are drawn a pixel larger on each side than the splat
+  if (point_size.world > 0.0 && PointSize::kLargestSplat + 2.0 > sizes.y)
+    throw UsageError(
+        fmt::format("splat size {}: rasterizer {} draws points of up to {} pixels here, and splats may take "
+                    "{}. Draw with --raster compute.",
+                    point_size.world, name_of(rasterizer), sizes.y, PointSize::kLargestSplat + 2.0));
+  if (point_size.spreads()) once_.emplace();
+  method.set_point_size(point_size_);
 }
 
 void ProgressiveRenderer::resize(const glm::ivec2& size) {
   for (auto& target : targets_) target.emplace(size, rasterizer_->depth_storage());
   blank_ = true;
   vertices_.reset();
-  if (method_->carry() == Carry::vertices) make_carry();
+  if (method_->carry() == Carry::vertices) make_carry(current());
   method_->forget();
 }
 
-void ProgressiveRenderer::make_carry() {
-  vertices_.emplace(current().size());
-  carry_room_ = pixels_of(current());
+void ProgressiveRenderer::make_carry(const FeedbackTarget& frame) {
+  vertices_.emplace(frame.size());
+  carry_room_ = pixels_of(frame);
+}
+
+void ProgressiveRenderer::choose_carried(FeedbackTarget& frame) {
+  if (once_) once_->choose(frame);
 }
 
 void ProgressiveRenderer::use(Method& method) {
   method_ = &method;
+  method_->set_point_size(point_size_);
   method_->forget();
   if (!targets_[0]) return;
   vertices_.reset();
-  if (method_->carry() == Carry::vertices) make_carry();
+  if (method_->carry() == Carry::vertices) make_carry(current());
   if (view_.size == glm::ivec2(0)) return;
-  if (method_->carry() == Carry::indices) method_->frame_drawn(current());
+  if (method_->carry() == Carry::indices) {
+    choose_carried(current());
+    method_->frame_drawn(current());
+  }
   view_drawn_ = false;
   method_->start_view(view_);
 }
@@ -54,16 +75,23 @@ void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
     case Carry::none:
       break;
     case Carry::grid:
+      // Points of all sizes keep each other waiting where most pixels of the grid carry none
+      if (once_) return append_vertices(items);
       items.push_back(CarriedGrid{&previous()});
       break;
     case Carry::vertices:
-      if (carry_room_ < pixels_of(previous())) make_carry();
-      vertices_->prepare(previous());
-      items.push_back(vertices_->vertices());
+      append_vertices(items);
       break;
     case Carry::indices:
       break;
   }
+}
+
+void ProgressiveRenderer::append_vertices(std::vector<DrawItem>& items) {
+  if (!vertices_ || carry_room_ < pixels_of(previous())) make_carry(previous());
+  choose_carried(previous());
+  vertices_->prepare(previous());
+  items.push_back(vertices_->vertices());
 }
 
 void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
@@ -82,7 +110,7 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   if (method_->keeps_still_view()) rasterizer_->add(current(), items);
   for (auto& target : targets_) target->clear();
   blank_ = true;
-  coverage_.count(current());
+  coverage_.count(current().ids());
   method_->forget();
   view_ = {};
   glFinish();
@@ -118,6 +146,7 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
     if (!blank_) append_carry(selection.items);
     rasterizer_->draw(current(), selection.items);
   }
+  if (method_->carry() == Carry::indices) choose_carried(current());
   method_->frame_drawn(current());
   blank_ = false;
   view_drawn_ = true;
@@ -129,11 +158,11 @@ FrameData ProgressiveRenderer::read() {
 }
 
 std::uint64_t ProgressiveRenderer::covered_pixels() {
-  return coverage_.count(current());
+  return coverage_.count(current().ids());
 }
 
 std::uint64_t ProgressiveRenderer::points_reprojected() {
-  return kept_ || method_->carry() == Carry::none ? 0 : coverage_.count(previous());
+  return kept_ || method_->carry() == Carry::none ? 0 : coverage_.count(previous().carried_ids());
 }
 
 }  // namespace stipple

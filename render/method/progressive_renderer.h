@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "octree/cloud/grid.h"
+#include "render/frame/carry_once.h"
 #include "render/frame/feedback_target.h"
 #include "render/frame/vertex_carry.h"
 #include "render/frame/view_block.h"
@@ -23,9 +24,9 @@ struct FrameReport {
 
 class ProgressiveRenderer {
  public:
-  // `method` must outlive the renderer. `point_size` in pixels, above 0. Throws UsageError for a size that the
-  // rasterizer does not draw (Rasterizer::point_sizes).
-  ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, double point_size = 1.0);
+  // `method` must outlive the renderer. Throws UsageError for a point size that the rasterizer does not draw
+  // (Rasterizer::point_sizes).
+  ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, const PointSize& point_size = {});
 
   // Makes targets of this size and has every pass run once on a single point, so that the driver's compiling and
   // allocating stay outside of timed parts. The next frame starts from nothing. Waits for the GPU.
@@ -47,22 +48,28 @@ class ProgressiveRenderer {
   FrameData read();
   std::uint64_t covered_pixels();
 
-  // Pixels of the frame before the last, each drawn again as a point in the last: 0 where the last stood, and for
-  // methods that carry nothing. Waits for the GPU.
+  // Points of the frame before the last that were drawn again in the last: one for each of its pixels where points
+  // cover no more than one; else one for each point, and a few twice. 0 where the last stood, and for methods that
+  // carry nothing. Waits for the GPU.
   std::uint64_t points_reprojected();
 
  private:
   void resize(const glm::ivec2& size);
-  void make_carry();
+  // With room for this frame.
+  void make_carry(const FeedbackTarget& frame);
+  // Called for a finished frame before it is carried.
+  void choose_carried(FeedbackTarget& frame);
   void append_carry(std::vector<DrawItem>& items);
+  void append_vertices(std::vector<DrawItem>& items);
   FeedbackTarget& current() { return *targets_[current_]; }
   FeedbackTarget& previous() { return *targets_[1 - current_]; }
 
   Method* method_;
   std::unique_ptr<Rasterizer> rasterizer_;
   Grid grid_;
-  double point_size_;
+  PointSize point_size_;
   ViewUniforms uniforms_;
+  std::optional<CarryOnce> once_;  // where points may cover several pixels
   CoverageCounter coverage_;
   std::array<std::optional<FeedbackTarget>, 2> targets_;
   std::optional<VertexCarry> vertices_;

@@ -5,13 +5,13 @@
 namespace stipple {
 namespace {
 
-// Compiles the variants of a pass.
-auto compiler(bool splats, bool over_picture = false) {
-  return [=](std::vector<ShaderDefine> defines) {
-    if (splats) defines.push_back({"SPLATS"});
-    if (over_picture) defines.push_back({"OVER_PICTURE"});
-    return Program::compute("raster_compute.glsl", defines);
-  };
+Program compile_raster(const std::vector<ShaderDefine>& defines) {
+  return Program::compute("raster_compute.glsl", defines);
+}
+
+Program compile_raster_over_picture(std::vector<ShaderDefine> defines) {
+  defines.push_back({"OVER_PICTURE"});
+  return compile_raster(defines);
 }
 
 void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> items) {
@@ -35,10 +35,10 @@ void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> i
 }  // namespace
 
 ComputeRasterizer::ComputeRasterizer(bool splats)
-    : depth_("PASS_DEPTH", compiler(splats)),
-      depth_over_picture_("PASS_DEPTH", compiler(splats, true)),
-      claim_("PASS_CLAIM", compiler(splats)),
-      repeat_("PASS_REPEAT", compiler(splats)) {}
+    : depth_("PASS_DEPTH", splats, compile_raster),
+      depth_over_picture_("PASS_DEPTH", splats, compile_raster_over_picture),
+      claim_("PASS_CLAIM", splats, compile_raster),
+      repeat_("PASS_REPEAT", splats, compile_raster) {}
 
 void ComputeRasterizer::rasterize(FeedbackTarget& target, std::span<const DrawItem> items, bool over_picture) {
   constexpr GLbitfield kPixels = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;

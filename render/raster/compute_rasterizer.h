@@ -8,7 +8,7 @@ namespace stipple {
 
 class ComputeRasterizer final : public Rasterizer {
  public:
-  // `splats`: points may be larger than a pixel.
+  // `splats`: points may be larger or smaller than a pixel.
   explicit ComputeRasterizer(bool splats);
   DepthStorage depth_storage() const override { return DepthStorage::image; }
   // Mesa's software renderer leaves a loop after 65,535 steps: 255 x 255 pixels.

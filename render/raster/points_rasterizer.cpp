@@ -34,10 +34,10 @@ GLuint make_vertex_array() {
 
 }  // namespace
 
-PointsRasterizer::PointsRasterizer()
-    : nearest_("PASS_NEAREST", compile_points),
-      claim_("PASS_CLAIM", compile_points),
-      repeat_("PASS_REPEAT", compile_points),
+PointsRasterizer::PointsRasterizer(bool splats)
+    : nearest_("PASS_NEAREST", splats, compile_points),
+      claim_("PASS_CLAIM", splats, compile_points),
+      repeat_("PASS_REPEAT", splats, compile_points),
       no_attributes_(make_vertex_array()),
       repeat_command_(4 * sizeof(std::uint32_t)) {}
 

@@ -8,7 +8,8 @@ namespace stipple {
 
 class PointsRasterizer final : public Rasterizer {
  public:
-  PointsRasterizer();
+  // `splats`: points may be larger or smaller than a pixel.
+  explicit PointsRasterizer(bool splats);
   DepthStorage depth_storage() const override { return DepthStorage::attachment; }
   // What the driver does not clamp.
   glm::dvec2 point_sizes() const override;

@@ -13,7 +13,7 @@ constexpr std::array kKinds{RasterizerKind::points, RasterizerKind::compute};
 }  // namespace
 
 std::unique_ptr<Rasterizer> make_rasterizer(RasterizerKind kind, bool splats) {
-  if (kind == RasterizerKind::points) return std::make_unique<PointsRasterizer>();
+  if (kind == RasterizerKind::points) return std::make_unique<PointsRasterizer>(splats);
   return std::make_unique<ComputeRasterizer>(splats);
 }
 

@@ -20,6 +20,8 @@ struct PointRange {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
   std::uint32_t first_id = 0;
+  bool one_pixel =
+      false;  // each covers the pixel it falls into and no other, certainly: these are drawn with less work
 };
 
 // Vertices collected on the GPU from the last frame; how many, only the GPU knows.
@@ -84,7 +86,7 @@ class Rasterizer {
   virtual void rasterize(FeedbackTarget& target, std::span<const DrawItem> items, bool over_picture) = 0;
 };
 
-// `splats`: the point size of the view block may differ from 1.
+// `splats`: points may be larger or smaller than a pixel (PointSize::varies()).
 std::unique_ptr<Rasterizer> make_rasterizer(RasterizerKind kind, bool splats);
 
 // "points", "compute".

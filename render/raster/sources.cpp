@@ -65,7 +65,8 @@ void bind(const CarriedIndices& carried) {
 }  // namespace
 
 void SourcePrograms::use_for(const DrawItem& item) const {
-  programs_[item.index()].use();
+  const auto* range = std::get_if<PointRange>(&item);
+  (range && range->one_pixel && range_of_pixels_ ? *range_of_pixels_ : programs_[item.index()]).use();
   std::visit([](const auto& each) { bind(each); }, item);
 }
 

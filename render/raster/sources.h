@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,18 +14,25 @@ namespace stipple {
 // One program per kind of item, made from the same shader files with another define (shaders/point_source.glsl).
 class SourcePrograms {
  public:
-  // `make` compiles a variant from its defines.
+  // `make` compiles a variant from its defines. `splats`: points may be larger or smaller than a pixel.
   template <class Make>
-  SourcePrograms(const std::string& pass, Make make)
-      : programs_{make({{"SOURCE_RANGE"}, {pass}}), make({{"SOURCE_VERTICES"}, {pass}}),
-                  make({{"SOURCE_GRID"}, {pass}}), make({{"SOURCE_PICKS"}, {pass}}),
-                  make({{"SOURCE_INDICES"}, {pass}})} {}
+  SourcePrograms(const std::string& pass, bool splats, Make make) {
+    const auto compile = [&](const char* source, bool with_splats) {
+      std::vector<ShaderDefine> defines{{source}, {pass}};
+      if (with_splats) defines.push_back({"SPLATS"});
+      return make(defines);
+    };
+    programs_ = {compile("SOURCE_RANGE", splats), compile("SOURCE_VERTICES", splats), compile("SOURCE_GRID", splats),
+                 compile("SOURCE_PICKS", splats), compile("SOURCE_INDICES", splats)};
+    if (splats) range_of_pixels_.emplace(compile("SOURCE_RANGE", false));
+  }
 
   // Uses the program for this item and binds the item's points to it.
   void use_for(const DrawItem& item) const;
 
  private:
   std::array<Program, std::variant_size_v<DrawItem>> programs_;
+  std::optional<Program> range_of_pixels_;  // for PointRange::one_pixel
 };
 
 // The notes of shaders/ties.glsl.

@@ -96,17 +96,28 @@ class Canvas {
 
   const Pixel& operator[](std::size_t i) const { return pixels_[i]; }
 
-  // Draws the point whose centre lies at x, y, inside the image.
-  void draw(double x, double y, double point_size, double depth, std::uint32_t id, std::uint32_t index) {
+  // Draws the point whose centre lies at x, y, inside the image, as a square.
+  void draw_square(double x, double y, double edge, double depth, std::uint32_t id, std::uint32_t index) {
     const auto bits = std::bit_cast<std::uint64_t>(depth);
-    if (point_size == 1.0) {
+    if (edge == 1.0) {
       put(at(static_cast<int>(x), static_cast<int>(y)), bits, id, index);
       return;
     }
-    const Span columns = covered(x, point_size, size_.x);
-    const Span rows = covered(y, point_size, size_.y);
+    const Span columns = covered(x, edge, size_.x);
+    const Span rows = covered(y, edge, size_.y);
     for (int row = rows.first; row <= rows.last; ++row)
       for (int column = columns.first; column <= columns.last; ++column) put(at(column, row), bits, id, index);
+  }
+
+  // The same as a disc, and the pixel that x, y is in.
+  void draw_splat(double x, double y, double diameter, double depth, std::uint32_t id, std::uint32_t index) {
+    const auto bits = std::bit_cast<std::uint64_t>(depth);
+    put(at(static_cast<int>(x), static_cast<int>(y)), bits, id, index);
+    const Span columns = covered(x, diameter, size_.x);
+    const Span rows = covered(y, diameter, size_.y);
+    for (int row = rows.first; row <= rows.last; ++row)
+      for (int column = columns.first; column <= columns.last; ++column)
+        if (std::hypot(column + 0.5 - x, row + 0.5 - y) <= 0.5 * diameter) put(at(column, row), bits, id, index);
   }
 
  private:
@@ -118,8 +129,9 @@ class Canvas {
   std::vector<Pixel> pixels_;
 };
 
-void draw_range(const PointSet& set, const View& view, const Projection& projection, double point_size,
+void draw_range(const PointSet& set, const View& view, const Projection& projection, const PointSize& point_size,
                 std::size_t first, std::size_t end, Canvas& canvas) {
+  const double splat_at_one = point_size.splat_at_one(view);
   const double width = view.size.x;
   const double height = view.size.y;
   Projected batch;
@@ -129,8 +141,15 @@ void draw_range(const PointSet& set, const View& view, const Projection& project
     for (std::size_t i = 0; i < count; ++i) {
       const double x = batch.x[i];
       const double y = batch.y[i];
-      if (batch.depth[i] > view.near && x >= 0.0 && x < width && y >= 0.0 && y < height)
-        canvas.draw(x, y, point_size, batch.depth[i], set.id(first + i), static_cast<std::uint32_t>(first + i));
+      const double depth = batch.depth[i];
+      if (!(depth > view.near && x >= 0.0 && x < width && y >= 0.0 && y < height)) continue;
+      const std::uint32_t id = set.id(first + i);
+      const auto index = static_cast<std::uint32_t>(first + i);
+      const double splat = splat_at_one / depth;
+      if (splat > point_size.pixels)
+        canvas.draw_splat(x, y, std::min(splat, PointSize::kLargestSplat), depth, id, index);
+      else
+        canvas.draw_square(x, y, point_size.pixels, depth, id, index);
     }
   }
 }
@@ -153,9 +172,11 @@ FrameData resolve(const PointSet& set, const Canvas& canvas, const glm::ivec2& s
 
 }  // namespace
 
-FrameData render_reference(const PointSet& points, const View& view, double point_size) {
-  if (!(point_size > 0.0 && std::isfinite(point_size)))
-    throw UsageError(fmt::format("point size {}: must be above 0 pixels", point_size));
+FrameData render_reference(const PointSet& points, const View& view, const PointSize& point_size) {
+  if (!(point_size.pixels > 0.0 && std::isfinite(point_size.pixels)))
+    throw UsageError(fmt::format("point size {}: must be above 0 pixels", point_size.pixels));
+  if (!(point_size.world >= 0.0 && std::isfinite(point_size.world)))
+    throw UsageError(fmt::format("splat size {}: must be 0 or above", point_size.world));
   const Projection projection(view, points.grid);
   Canvas canvas(view.size);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1 << 16), [&](const auto& range) {

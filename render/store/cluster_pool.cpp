@@ -137,9 +137,13 @@ void ClusterPool::free(std::span<const ClusterRun> runs) {
   }
 }
 
-void ClusterPool::append_items(const ClusterRun& run, std::vector<DrawItem>& items) const {
+void ClusterPool::append_items(const ClusterRun& run, std::vector<DrawItem>& items, bool one_pixel) const {
   const ClusterTable::Chunk& chunk = table_.chunks[run.first / kChunkSlots];
-  items.push_back(PointRange{&chunk.points, &chunk.ids, run.first % kChunkSlots * kPoints, run.count * kPoints});
+  items.push_back(PointRange{.points = &chunk.points,
+                             .ids = &chunk.ids,
+                             .first = run.first % kChunkSlots * kPoints,
+                             .count = run.count * kPoints,
+                             .one_pixel = one_pixel});
 }
 
 }  // namespace stipple

@@ -49,8 +49,8 @@ class ClusterPool {
   std::vector<ClusterRun> put(const SlottedPoints& points, std::uint32_t first, std::uint32_t count);
   void free(std::span<const ClusterRun> runs);
 
-  // Appends the item that draws a run put() gave.
-  void append_items(const ClusterRun& run, std::vector<DrawItem>& items) const;
+  // Appends the item that draws a run put() gave. `one_pixel`: see PointRange.
+  void append_items(const ClusterRun& run, std::vector<DrawItem>& items, bool one_pixel) const;
 
  private:
   ClusterRun take(std::uint32_t count);

@@ -56,13 +56,16 @@ GpuCloud::GpuCloud(std::size_t points) : size_(points) {
   }
 }
 
-void GpuCloud::append_items(std::size_t first, std::size_t count, std::vector<DrawItem>& items) const {
+void GpuCloud::append_items(std::size_t first, std::size_t count, std::vector<DrawItem>& items, bool one_pixel) const {
   while (count > 0) {
     const std::size_t place = first % kChunkPoints;
     const std::size_t here = std::min(count, kChunkPoints - place);
     const Chunk& chunk = chunks_[first / kChunkPoints];
-    items.push_back(
-        PointRange{&chunk.points, &chunk.ids, static_cast<std::uint32_t>(place), static_cast<std::uint32_t>(here)});
+    items.push_back(PointRange{.points = &chunk.points,
+                               .ids = &chunk.ids,
+                               .first = static_cast<std::uint32_t>(place),
+                               .count = static_cast<std::uint32_t>(here),
+                               .one_pixel = one_pixel});
     first += here;
     count -= here;
   }

@@ -27,8 +27,8 @@ class GpuCloud {
   std::span<Chunk> chunks() { return chunks_; }
   std::span<const Chunk> chunks() const { return chunks_; }
 
-  // Appends the items that draw slots [first, first + count): one a chunk they touch.
-  void append_items(std::size_t first, std::size_t count, std::vector<DrawItem>& items) const;
+  // Appends the items that draw slots [first, first + count): one a chunk they touch. `one_pixel`: see PointRange.
+  void append_items(std::size_t first, std::size_t count, std::vector<DrawItem>& items, bool one_pixel = false) const;
 
  private:
   std::size_t size_;

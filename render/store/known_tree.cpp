@@ -8,6 +8,7 @@
 namespace stipple {
 
 WorldBox generous_cell(const TreeInfo& info, const StoredNode& node) {
+  if (node.box) return world_box(info.source.grid, *node.box);
   WorldBox box = cell_of(info.cube, node);
   box.min -= info.cell_margin;
   box.max += info.cell_margin;

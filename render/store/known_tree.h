@@ -14,7 +14,7 @@
 
 namespace stipple {
 
-// The cell of a node, and what points may be outside it.
+// The cell of a node, and what points may be outside it; where the hierarchy knows a box, that.
 WorldBox generous_cell(const TreeInfo& info, const StoredNode& node);
 
 // Begins with the first piece of the hierarchy and grows by lookups, which read from disk and may be run by any thread;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "octree/select/density.h"
 #include "octree/select/order.h"
 #include "render/frame/view_frustum.h"
 
@@ -20,20 +19,20 @@ std::vector<VisibleCluster> MemorySupply::visible(const View& view) {
       const Cluster& cluster = octree_.clusters[c];
       const WorldBox box = world_box(octree_.grid, cluster.box);
       if (!may_see(frustum, box)) continue;
-      clusters.push_back({c, cluster.count,
-                          estimated_pixels(cluster.profile, octree_.cube.edge, nearest_pixel_size(view, box)),
-                          visible.distance});
+      clusters.push_back({c, cluster.count, estimate(cluster, box, octree_.cube.edge, view), visible.distance,
+                          splat_range(point_size_, view, box)});
     }
   }
   return clusters;
 }
 
-void MemorySupply::request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) {
+void MemorySupply::request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) {
   const std::uint32_t slot = octree_.clusters[handle].first + first;
   requested_.push_back({.points = points_.points.data() + slot,
                         .ids = points_.ids.empty() ? nullptr : points_.ids.data() + slot,
                         .first_id = slot,
-                        .count = count});
+                        .count = count,
+                        .one_pixel = one_pixel});
 }
 
 std::vector<PointPiece> MemorySupply::collect(std::uint32_t most) {

@@ -10,11 +10,12 @@ namespace stipple {
 class MemorySupply final : public PointSupply {
  public:
   // `points` in store order of the octree. Both must outlive the supply.
-  MemorySupply(const PointSet& points, const Octree& octree) : points_(points), octree_(octree) {}
+  MemorySupply(const PointSet& points, const Octree& octree, DensityEstimate density = DensityEstimate::box_count)
+      : PointSupply(density), points_(points), octree_(octree) {}
 
   std::vector<VisibleCluster> visible(const View& view) override;
   std::size_t visible_nodes() const override { return visible_nodes_; }
-  void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) override;
+  void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) override;
   std::vector<PointPiece> collect(std::uint32_t most) override;
   std::uint64_t read_ahead(std::uint32_t budget) const override { return budget; }
   std::uint64_t bytes_read() const override { return bytes_read_; }

@@ -16,6 +16,7 @@ struct PointPiece {
   const std::uint32_t* ids = nullptr;  // null: point i has id first_id + i
   std::uint32_t first_id = 0;
   std::uint32_t count = 0;
+  bool one_pixel = false;  // see PointRange
 };
 
 class StreamBuffer {
@@ -30,7 +31,8 @@ class StreamBuffer {
   std::uint32_t section_points() const { return section_points_; }
 
   // Copies the pieces, at most section_points() in all, into the next section on all cores and gives the range that
-  // draws them. Waits until the GPU has finished with the frame that used the section last.
+  // draws them, which knows nothing of their `one_pixel`. Waits until the GPU has finished with the frame that used the
+  // section last.
   PointRange stream(std::span<const PointPiece> pieces);
 
  private:

@@ -29,8 +29,13 @@ GridBox grid_box_around(const Grid& grid, const WorldBox& box) {
 
 }  // namespace
 
-TreeSupply::TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before)
-    : store_(std::move(store)), colors_(std::move(colors)), bytes_before_(bytes_before), tree_(store_) {
+TreeSupply::TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before,
+                       DensityEstimate density)
+    : PointSupply(density),
+      store_(std::move(store)),
+      colors_(std::move(colors)),
+      bytes_before_(bytes_before),
+      tree_(store_) {
   if (const auto index = find_attribute(store_->info().source.schema, colors_.attribute)) attributes_.push_back(*index);
   for (std::size_t i = 0; i < kReadThreads; ++i)
     threads_.emplace_back([this, looks_first = i % 2 == 0] { work(looks_first); });
@@ -123,7 +128,8 @@ void TreeSupply::append_clusters(const KnownTree::Sight& sight, std::vector<Visi
   ++visible_nodes_;
   first_id_of(node);  // throws when it has more points than a count of 32 bits holds
   const auto append = [&](std::uint32_t first, std::uint32_t count, const GridBox& box, double pixels) {
-    clusters.push_back({static_cast<std::uint32_t>(parts_.size()), count, pixels, sight.distance});
+    clusters.push_back({static_cast<std::uint32_t>(parts_.size()), count, pixels, sight.distance,
+                        splat_range(point_size_, view_, world_box(info.source.grid, box))});
     parts_.push_back({sight.node, first, box});
   };
   const auto count = static_cast<std::uint32_t>(node.points);
@@ -139,8 +145,7 @@ void TreeSupply::append_clusters(const KnownTree::Sight& sight, std::vector<Visi
   for (const Cluster& cluster : details->clusters) {
     const WorldBox box = world_box(info.source.grid, cluster.box);
     if (!may_see(frustum_, box)) continue;
-    append(cluster.first, cluster.count, cluster.box,
-           estimated_pixels(cluster.profile, info.cube.edge, nearest_pixel_size(view_, box)));
+    append(cluster.first, cluster.count, cluster.box, estimate(cluster, box, info.cube.edge, view_));
   }
 }
 
@@ -151,12 +156,13 @@ double TreeSupply::projected_spacing(std::uint32_t node, double distance) const 
   return std::ldexp(root_spacing, -tree_.node(node).level) / std::max(distance, view_.near);
 }
 
-void TreeSupply::request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) {
+void TreeSupply::request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) {
   const std::uint32_t largest = store_->reads_parts() ? kLargestRequest : count;
   const Part& part = parts_[handle];
   const std::lock_guard lock(mutex_);
   for (std::uint32_t at = 0; at < count; at += largest) {
-    queue_.push_back({tree_.node(part.node), part.first + first + at, std::min(largest, count - at), view_number_});
+    queue_.push_back(
+        {tree_.node(part.node), part.first + first + at, std::min(largest, count - at), one_pixel, view_number_});
     ++under_way_;
   }
   work_ready_.notify_all();
@@ -178,7 +184,7 @@ std::vector<PointPiece> TreeSupply::collect(std::uint32_t most) {
     const bool all = arrival.given + count == arrival.points.size();
     given_.push_back(all ? std::move(arrival) : arrival);
     const Arrival& kept = given_.back();
-    pieces.push_back({kept.points.data() + kept.given, nullptr, kept.first_id + kept.given, count});
+    pieces.push_back({kept.points.data() + kept.given, nullptr, kept.first_id + kept.given, count, kept.one_pixel});
     if (all)
       arrivals_.pop_front();
     else
@@ -192,6 +198,7 @@ TreeSupply::Arrival TreeSupply::read(const Request& request) const {
   store_->read_part(request.node, request.first, request.count, attributes_, batch);
   Arrival arrival;
   arrival.first_id = first_id_of(request.node) + request.first;
+  arrival.one_pixel = request.one_pixel;
   arrival.points.resize(batch.positions.size());
   pack_points(colors_, batch.positions, batch.columns.empty() ? nullptr : &batch.columns.front(), 0, arrival.points);
   return arrival;

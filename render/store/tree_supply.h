@@ -30,7 +30,8 @@ class TreeSupply final : public PointSupply {
   };
 
   // `bytes_before`: of what was read from the store so far, what bytes_read() leaves out.
-  TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before = 0);
+  TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before = 0,
+             DensityEstimate density = DensityEstimate::box_count);
   ~TreeSupply() override;
   TreeSupply(const TreeSupply&) = delete;
   TreeSupply& operator=(const TreeSupply&) = delete;
@@ -39,7 +40,7 @@ class TreeSupply final : public PointSupply {
   std::vector<VisibleCluster> discovered() override;
   bool searching() const override { return asked_ > 0; }
   std::size_t visible_nodes() const override { return visible_nodes_; }
-  void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count) override;
+  void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) override;
   std::vector<PointPiece> collect(std::uint32_t most) override;
   std::uint64_t read_ahead(std::uint32_t budget) const override { return 3ull * budget; }
   std::uint64_t bytes_read() const override { return store_->bytes_read() - bytes_before_; }
@@ -58,12 +59,14 @@ class TreeSupply final : public PointSupply {
     StoredNode node;
     std::uint32_t first;
     std::uint32_t count;
+    bool one_pixel;
     std::uint64_t view;  // which call of visible() it belongs to
   };
   struct Arrival {
     std::vector<PackedPoint> points;
     std::uint32_t first_id = 0;
     std::uint32_t given = 0;  // of them, by collect()
+    bool one_pixel = false;
   };
   void ask(const std::vector<KnownTree::Sight>& unknown);
   void append_clusters(const std::vector<KnownTree::Sight>& seen, std::vector<VisibleCluster>& clusters);

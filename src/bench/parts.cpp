@@ -64,7 +64,7 @@ class ProgressiveFrame {
     glFinish();
   }
   std::size_t budget() const { return budget_; }
-  std::uint32_t carried() { return coverage_.count(previous_); }
+  std::uint32_t carried() { return coverage_.count(previous_.ids()); }
 
  private:
   std::unique_ptr<Rasterizer> rasterizer_;

@@ -65,9 +65,9 @@ bool can_be_profile(const BoxCounts& profile, std::uint64_t points) {
 
 std::optional<std::string> check_cell(const TreeInfo& info, const StoredNode& node, const PointBatch& points) {
   const Grid& grid = info.source.grid;
-  const WorldBox cell = cell_of(info.cube, node);
-  const glm::dvec3 min = grid.grid_from_world(cell.min - info.cell_margin);
-  const glm::dvec3 max = grid.grid_from_world(cell.max + info.cell_margin);
+  const WorldBox cell = node.box ? world_box(grid, *node.box) : cell_of(info.cube, node);
+  const glm::dvec3 min = node.box ? glm::dvec3(node.box->min) : grid.grid_from_world(cell.min - info.cell_margin);
+  const glm::dvec3 max = node.box ? glm::dvec3(node.box->max) : grid.grid_from_world(cell.max + info.cell_margin);
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     const glm::dvec3 p(points.positions[i]);
     if (glm::all(glm::lessThanEqual(min, p)) && glm::all(glm::lessThanEqual(p, max))) continue;

@@ -23,6 +23,12 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
   command.add_option("--fps", options.fps, "Instead of a fixed budget: steer it to this many frames a second.")
       ->excludes(budget);
   command.add_option("--point-size", options.point_size, "Edge of a point's square in pixels.")->capture_default_str();
+  command.add_option(
+      "--splat-size", options.splat_size,
+      fmt::format("Draw near points as round splats of this diameter, in the cloud's own units (metres, as a rule): "
+                  "those whose splat is larger on the screen than --point-size, up to {} pixels. As in 0.05. Default: "
+                  "no splats.",
+                  PointSize::kLargestSplat));
   command.add_option("--color", options.color,
                      "Colour by rgb, height or any attribute (`stipple info` lists them). Default: the first there is "
                      "of rgb, intensity, height.");
@@ -35,6 +41,13 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
       .add_option("--carry", options.carry,
                   "How mode unstructured carries what the last frame shows: vertex (Schuetz and others 2019) or index "
                   "(Schuetz and Wimmer 2018; not for octrees on disk).")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--density", options.density,
+          "How mode hierarchical estimates the pixels that a cluster's points can cover, by which it rations "
+          "them: box-count (cells of a pixel's size that they occupy) or uniform (as if they were spread evenly "
+          "over their box, as Tredinnick and others 2016 do).")
       ->capture_default_str();
   command.add_option("--memory", options.memory,
                      "Main memory that points may take, with k, M or G for powers of 1024 bytes; the program itself "
@@ -71,6 +84,11 @@ BudgetPolicy budget_of(const DrawOptions& options) {
   return policy;
 }
 
+PointSize point_size_of(const DrawOptions& options) {
+  const double pixels = parse_positive("--point-size", options.point_size);
+  return {pixels, options.splat_size.empty() ? 0.0 : parse_positive("--splat-size", options.splat_size)};
+}
+
 MemoryLimits limits_of(const DrawOptions& options) {
   constexpr std::uint64_t kLeast = std::uint64_t{64} << 10;  // a thousand points a frame
   MemoryLimits limits;
@@ -85,6 +103,9 @@ MethodOptions method_options_of(const DrawOptions& options) {
   if (options.carry != "vertex" && options.carry != "index")
     throw UsageError(fmt::format("--carry {}: expected vertex or index", options.carry));
   method.carry_indices = options.carry == "index";
+  if (options.density != "box-count" && options.density != "uniform")
+    throw UsageError(fmt::format("--density {}: expected box-count or uniform", options.density));
+  method.density = options.density == "uniform" ? DensityEstimate::uniform : DensityEstimate::box_count;
   for (const std::string& name : options.no_skip) {
     if (name == "occlusion")
       method.skip_occluded = false;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/frame/point_size.h"
 #include "render/raster/rasterizer.h"
 #include "render/store/memory_limits.h"
 #include "src/run/view_run.h"
@@ -19,10 +20,12 @@ struct DrawOptions {
   std::string budget = "1M";
   std::string fps;
   std::string point_size = "1";
+  std::string splat_size;
   std::string color;
   std::string background = "808080";
   std::uint64_t seed = 0;
   std::string carry = "vertex";
+  std::string density = "box-count";
   std::string memory;
   std::string gpu_memory;
   std::vector<std::string> no_skip;
@@ -33,6 +36,7 @@ void add_draw_options(CLI::App& command, DrawOptions& options);
 // Their values. Each throws UsageError naming the option.
 RasterizerKind rasterizer_of(const DrawOptions& options);
 BudgetPolicy budget_of(const DrawOptions& options);
+PointSize point_size_of(const DrawOptions& options);
 MemoryLimits limits_of(const DrawOptions& options);
 // Seed, largest budget, limits and what hybrid may skip.
 MethodOptions method_options_of(const DrawOptions& options);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "octree/build/kd/kd_builder.h"
 #include "octree/build/stream/sampler.h"
 #include "octree/build/stream/tree_builder.h"
 #include "octree/core/error.h"
@@ -26,6 +27,7 @@ struct Options {
   int threads = 0;
   std::string sampling = "poisson";
   std::string encoding = "DEFAULT";
+  std::string partition = "octree";
   bool force = false;
   bool json = false;
 };
@@ -41,6 +43,11 @@ StreamOptions stream_options(const Options& options) {
     throw UsageError(fmt::format("--encoding: \"{}\" is neither DEFAULT nor BROTLI", options.encoding));
   stream.encoding = options.encoding == "BROTLI" ? potree2::Encoding::brotli : potree2::Encoding::uncompressed;
   stream.replace = options.force;
+  if (options.partition != "octree" && options.partition != "kd")
+    throw UsageError(fmt::format("--partition: \"{}\" is neither octree nor kd", options.partition));
+  if (options.partition == "kd" && (options.sampling != "poisson" || options.encoding != "DEFAULT"))
+    throw UsageError(
+        "--partition kd: a kd tree samples nothing and has plain records; leave out --sampling and --encoding");
   return stream;
 }
 
@@ -54,7 +61,8 @@ void print_as_json(const Options& options, const BuildReport& report, double sec
                       {"nodes", report.nodes},
                       {"depth", report.depth},
                       {"spacing", report.spacing},
-                      {"sampling", options.sampling},
+                      {"partition", options.partition},
+                      {"sampling", options.partition == "kd" ? Json(nullptr) : Json(options.sampling)},
                       {"encoding", options.encoding},
                       {"grid", {{"scale", json_of(report.grid.scale)}, {"offset", json_of(report.grid.offset)}}},
                       {"largest_rounding", report.largest_rounding},
@@ -85,7 +93,8 @@ void run(const Options& options) {
   {
     const StopOnSignal stop(monitor);
     const BuildWatch watch(monitor, options.json);
-    report = build_tree(sources, options.output, stream, monitor);
+    report = options.partition == "kd" ? build_kd_tree(sources, options.output, stream, monitor)
+                                       : build_tree(sources, options.output, stream, monitor);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (report.largest_rounding > 0.0)
@@ -125,6 +134,13 @@ void add_build_command(CLI::App& app) {
           "--encoding", options->encoding,
           "How points are stored. DEFAULT: plain records, of which parts of a node can be read. BROTLI: packed "
           "node by node, for the network; smaller, and slower to build and to read.")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--partition", options->partition,
+          "octree (Potree 2.0), or kd: a binary tree as of viewers that draw every point at every distance, split "
+          "at the mean of the longest axis, all points in the leaves. It is for comparing the two, is read by "
+          "this program alone, and is built in memory: a cloud that --memory has no room for is refused.")
       ->capture_default_str();
   command->add_flag("--force", options->force,
                     "Replace a tree that is already there. Other folders are never replaced.");

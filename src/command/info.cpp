@@ -34,19 +34,34 @@ struct Nodes {
   std::uint64_t count = 0;
   std::uint64_t points = 0;
   std::uint64_t bytes = 0;
+  // World units cubed, of the boxes of all nodes with points: tight ones, where the tree knows them. Only if exact.
+  std::optional<double> volume;
+  std::optional<double> leaf_volume;  // of the leaves among them
 };
+
+double volume_of(const TreeStore& store, const StoredNode& node) {
+  const TreeInfo& info = store.info();
+  WorldBox box = node.box ? world_box(info.source.grid, *node.box) : cell_of(info.cube, node);
+  if (info.has_details) box = world_box(info.source.grid, store.read_details(node).box);
+  return (box.max.x - box.min.x) * (box.max.y - box.min.y) * (box.max.z - box.min.z);
+}
 
 Nodes nodes_of(const TreeStore& store, bool exact) {
   std::vector<StoredNode> hierarchy = read_whole_hierarchy(store);
   if (exact) hierarchy = locate_all(store, hierarchy);
   Nodes nodes;
   nodes.count = hierarchy.size();
+  if (exact) nodes.volume = nodes.leaf_volume = 0.0;
   for (const StoredNode& node : hierarchy) {
     nodes.levels.resize(std::max<std::size_t>(nodes.levels.size(), node.level + 1));
     ++nodes.levels[node.level].nodes;
     nodes.levels[node.level].points += node.points;
     nodes.points += node.points;
     nodes.bytes += node.byte_size;
+    if (!exact || node.points == 0) continue;
+    const double volume = volume_of(store, node);
+    *nodes.volume += volume;
+    if (node.is_leaf()) *nodes.leaf_volume += volume;
   }
   return nodes;
 }
@@ -100,6 +115,8 @@ Json tree_json(const TreeInfo& info, const Nodes& nodes) {
   return {{"nodes", nodes.count},
           {"depth", nodes.levels.empty() ? Json(nullptr) : Json(nodes.levels.size() - 1)},
           {"spacing", info.spacing},
+          {"bounding_volume", json_or_null(nodes.volume)},
+          {"leaf_bounding_volume", json_or_null(nodes.leaf_volume)},
           {"cube", {{"min", json_of(info.cube.min)}, {"edge", info.cube.edge}}},
           {"point_bytes", json_or_null(info.point_bytes)},
           {"hierarchy_bytes", json_or_null(info.hierarchy_bytes)},
@@ -152,6 +169,9 @@ void print_as_text(const TreeInfo& info, const Nodes& nodes) {
     print_line("spacing", fmt::format("{} in the root, half of it with every level", info.spacing));
   if (info.minimal_distance)
     print_line("", fmt::format("inner nodes promise {} of it between any two points", *info.minimal_distance));
+  if (nodes.volume)
+    print_line("volume", fmt::format("{:.6g} cubic units in the boxes of the nodes with points, {:.6g} in the leaves'",
+                                     *nodes.volume, *nodes.leaf_volume));
   if (!levels.empty()) print_line("depth", fmt::format("{}", levels.size() - 1));
   for (std::size_t i = 0; i < levels.size(); ++i)
     print_line(fmt::format("level {}", i), fmt::format("{:>8} nodes {:>16} points", with_thousands(levels[i].nodes),
@@ -201,7 +221,7 @@ void add_info_command(CLI::App& app) {
       ->required();
   command->add_flag("--exact", options->exact,
                     "Of an octree, count the points that its nodes hold, from the headers and sizes of their files, "
-                    "instead of stating what its metadata say.");
+                    "instead of stating what its metadata say, and sum up the volume of their boxes.");
   add_json_flag(*command, options->json);
   command->footer(
       "Prints the format, the number of points, the integer grid that positions lie on (scale and offset in the "

@@ -79,7 +79,7 @@ Camera camera_of(const Options& options, const Dataset& dataset, double aspect) 
           .fov_deg = options.fov_deg};
 }
 
-Picture draw_reference(const Dataset& dataset, const View& view, double point_size) {
+Picture draw_reference(const Dataset& dataset, const View& view, const PointSize& point_size) {
   const auto start = std::chrono::steady_clock::now();
   Picture picture{render_reference(dataset.points, view, point_size), {}};
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -96,7 +96,8 @@ Picture draw_reference(const Dataset& dataset, const View& view, double point_si
   return picture;
 }
 
-Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, const View& view, double point_size) {
+Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, const View& view,
+                     const PointSize& point_size) {
   const BudgetPolicy policy = budget_of(options.draw);
   const HeadlessContext context;
   const auto method = make_method(mode, dataset, method_options_of(options.draw));
@@ -112,6 +113,10 @@ Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, 
                    {"covered_pixels", state.covered_pixels},
                    {"nodes_visible", counts.nodes_visible},
                    {"nodes_occluded", counts.nodes_occluded},
+                   {"pixels_estimated", counts.pixels_estimated},
+                   {"clusters_far", counts.clusters_far},
+                   {"clusters_near", counts.clusters_near},
+                   {"clusters_across", counts.clusters_across},
                    {"bytes_read", counts.bytes_read}};
   picture.stats.update(context_provenance(context));
   return picture;
@@ -144,7 +149,7 @@ void run(const Options& options) {
   if (!mode && options.mode != kReference)
     throw UsageError(fmt::format("--mode {}: expected reference, {}", options.mode, mode_names()));
   const glm::ivec2 size = parse_size("--size", options.draw.size);
-  const double point_size = parse_positive("--point-size", options.draw.point_size);
+  const PointSize point_size = point_size_of(options.draw);
   const std::uint32_t background = parse_color("--background", options.draw.background);
   rasterizer_of(options.draw);
   budget_of(options.draw);
@@ -163,11 +168,13 @@ void run(const Options& options) {
              {"raster", mode ? Json(options.draw.raster) : Json()},
              {"seed", options.draw.seed},
              {"carry", options.draw.carry},
+             {"density", options.draw.density},
              {"budget", budget_in_use(options, dataset)},
              {"skip_occluded", method.skip_occluded},
              {"by_yield", method.by_yield},
              {"keep_still", method.keep_still},
-             {"point_size", point_size},
+             {"point_size", point_size.pixels},
+             {"splat_size", point_size.world},
              {"background", options.draw.background},
              {"load_ms", dataset.load_seconds * 1e3},
              {"build_ms", dataset.build_seconds * 1e3}};

@@ -103,7 +103,7 @@ StudySettings settings_of(const Options& options) {
   settings.method = method_options_of(options.draw);
   settings.seconds = parse_positive("--duration", options.duration);
   settings.repeats = options.repeats;
-  settings.point_size = parse_positive("--point-size", options.draw.point_size);
+  settings.point_size = point_size_of(options.draw);
   settings.color = options.draw.color;
   settings.background = parse_color("--background", options.draw.background);
   settings.flip_every_frame = options.flip_every_frame;

@@ -42,7 +42,8 @@ ViewerOptions viewer_options(const Options& options) {
     viewer.method.limits.main = static_cast<std::uint64_t>(kShareOfMemory * static_cast<double>(free_memory()));
   viewer.rasterizer = rasterizer_of(options.draw);
   viewer.policy = budget_of(options.draw);
-  viewer.point_size = parse_positive("--point-size", options.draw.point_size);
+  viewer.point_size = point_size_of(options.draw).pixels;
+  viewer.splat_size = point_size_of(options.draw).world;
   viewer.background = parse_color("--background", options.draw.background);
   if (!options.camera.empty()) {
     const CameraFile file = read_camera_file(options.camera);

@@ -17,7 +17,7 @@ namespace stipple {
 class FrameJudge {
  public:
   struct Options {
-    double point_size = 1.0;
+    PointSize point_size;
     bool flip_every_frame = false;  // or only at QualityMarks, and where asked for
     bool carries = true;            // the method takes something along from frame to frame
   };

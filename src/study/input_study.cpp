@@ -150,7 +150,8 @@ std::vector<Truth> InputStudy::truths_of(const Route& route, Json& description) 
     const Json provenance{{"mode", "reference"},
                           {"dataset", dataset_provenance(dataset_)},
                           {"view", view_provenance(view)},
-                          {"point_size", settings_.point_size},
+                          {"point_size", settings_.point_size.pixels},
+                          {"splat_size", settings_.point_size.world},
                           {"background", fmt::format("{:06x}", settings_.background)}};
     write_png(file, truths.back().reference, {{"stipple", text_of(provenance)}});
   }
@@ -213,10 +214,12 @@ std::string InputStudy::provenance(const Route& route, const Curve& curve) const
             {"mode", curve.mode},
             {"raster", curve.raster},
             {"budget", settings_.budget.points},
-            {"point_size", settings_.point_size},
+            {"point_size", settings_.point_size.pixels},
+            {"splat_size", settings_.point_size.world},
             {"background", fmt::format("{:06x}", settings_.background)},
             {"seed", settings_.method.seed},
-            {"carry", settings_.method.carry_indices ? "index" : "vertex"}};
+            {"carry", settings_.method.carry_indices ? "index" : "vertex"},
+            {"density", settings_.method.density == DensityEstimate::uniform ? "uniform" : "box-count"}};
   // That of a picture on a path is where the path has it in that frame
   if (curve.regime == name_of(Regime::path)) {
     json.erase("view");

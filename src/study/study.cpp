@@ -61,11 +61,13 @@ Json settings_json(const StudySettings& settings) {
           {"skip_occluded", settings.method.skip_occluded},
           {"by_yield", settings.method.by_yield},
           {"keep_still", settings.method.keep_still},
-          {"point_size", settings.point_size},
+          {"point_size", settings.point_size.pixels},
+          {"splat_size", settings.point_size.world},
           {"background", fmt::format("{:06x}", settings.background)},
           {"color", settings.color},
           {"seed", settings.method.seed},
           {"carry", settings.method.carry_indices ? "index" : "vertex"},
+          {"density", settings.method.density == DensityEstimate::uniform ? "uniform" : "box-count"},
           {"flip", settings.flip_every_frame ? "every frame"
                                              : "along paths every frame, else the first, the first at 30, 35, 40, 45 "
                                                "dB, the last"},

@@ -39,7 +39,7 @@ struct StudySettings {
   MethodOptions method;
   double seconds = 120.0;  // of drawing, at most, for each curve by the wall clock
   int repeats = 1;
-  double point_size = 1.0;
+  PointSize point_size;
   std::string color;
   std::uint32_t background = 0x808080;
   bool flip_every_frame = false;  // or only at QualityMarks, along paths, and the last frame

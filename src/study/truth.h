@@ -27,7 +27,7 @@ class TruthMaker {
  public:
   struct Options {
     RasterizerKind raster = RasterizerKind::compute;
-    double point_size = 1.0;
+    PointSize point_size;
     std::uint32_t background = 0x808080;
     MethodOptions method;
   };

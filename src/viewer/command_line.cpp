@@ -38,6 +38,7 @@ std::string text_of(const RenderCommand& command) {
                       text_of(command.camera.target), text_of(command.camera.up), command.camera.fov_deg);
   line += fmt::format(" --color {} --point-size {} --background {:06x}", quoted(command.color), command.point_size,
                       command.background);
+  if (command.splat_size > 0.0) line += fmt::format(" --splat-size {}", command.splat_size);
   return line;
 }
 

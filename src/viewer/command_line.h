@@ -19,6 +19,7 @@ struct RenderCommand {
   glm::ivec2 size{0};
   std::string color;
   double point_size = 1.0;
+  double splat_size = 0.0;  // 0: none
   std::uint32_t background = 0;
 };
 

@@ -15,7 +15,7 @@ bool same(const ColorMap& a, const ColorMap& b) {
 
 }  // namespace
 
-std::unique_ptr<ProgressiveRenderer> Pane::make_renderer(const Content& content, double point_size) const {
+std::unique_ptr<ProgressiveRenderer> Pane::make_renderer(const Content& content, const PointSize& point_size) const {
   return std::make_unique<ProgressiveRenderer>(*content.method, rasterizer_, content.grid, point_size);
 }
 
@@ -33,8 +33,9 @@ void Pane::show(Content next, bool other_points) {
 }
 
 void Pane::set_point_size(double pixels) {
-  if (renderer_) renderer_ = make_renderer(content_, pixels);
-  point_size_ = pixels;
+  const PointSize point_size(pixels, point_size_.world);
+  if (renderer_) renderer_ = make_renderer(content_, point_size);
+  point_size_ = point_size;
   drawn_view_ = {};
 }
 

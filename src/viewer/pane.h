@@ -21,7 +21,7 @@ class Pane {
     ColorMap colors;
   };
 
-  Pane(RasterizerKind rasterizer, double point_size) : rasterizer_(rasterizer), point_size_(point_size) {}
+  Pane(RasterizerKind rasterizer, const PointSize& point_size) : rasterizer_(rasterizer), point_size_(point_size) {}
 
   // From now on draws this, beginning with the picture that is there unless the points are others or their colours.
   // Throws Error as ProgressiveRenderer does; then it shows what it showed.
@@ -46,10 +46,10 @@ class Pane {
   std::uint64_t frames() const { return frames_; }                // drawn ever
 
  private:
-  std::unique_ptr<ProgressiveRenderer> make_renderer(const Content& content, double point_size) const;
+  std::unique_ptr<ProgressiveRenderer> make_renderer(const Content& content, const PointSize& point_size) const;
 
   RasterizerKind rasterizer_;
-  double point_size_;
+  PointSize point_size_;
   Content content_;
   std::unique_ptr<ProgressiveRenderer> renderer_;  // after the content it draws from
   View drawn_view_;

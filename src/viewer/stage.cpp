@@ -11,7 +11,7 @@ constexpr std::array kSides{Stage::left, Stage::right};
 
 }  // namespace
 
-Stage::Stage(Workshop& workshop, RasterizerKind rasterizer, double point_size)
+Stage::Stage(Workshop& workshop, RasterizerKind rasterizer, const PointSize& point_size)
     : workshop_(workshop), panes_{Pane(rasterizer, point_size), Pane(rasterizer, point_size)} {}
 
 void Stage::open(const Opening& opening, bool again) {

@@ -18,7 +18,7 @@ class Stage {
  public:
   enum Side { left = 0, right = 1 };
 
-  Stage(Workshop& workshop, RasterizerKind rasterizer, double point_size);
+  Stage(Workshop& workshop, RasterizerKind rasterizer, const PointSize& point_size);
 
   // The last picture stays until there is a new one. `again`: the same points, in other colours say.
   void open(const Opening& opening, bool again = false);

@@ -55,7 +55,7 @@ Viewer::Viewer(Window& window, ViewerOptions options)
       options_(std::move(options)),
       gui_(window),
       workshop_(window),
-      stage_(workshop_, options_.rasterizer, options_.point_size),
+      stage_(workshop_, options_.rasterizer, PointSize(options_.point_size, options_.splat_size)),
       pointer_(4.0 * window.text_scale()),
       screenshot_(options_.screenshot) {
   size_ = glm::max(window_.size(), 1);
@@ -602,9 +602,13 @@ void Viewer::take_screenshot_if_due() {
 }
 
 void Viewer::write_screenshot(const std::string& path) {
-  Json facts{{"mode", name_of(*stage_.pane().mode())}, {"raster", name_of(options_.rasterizer)},
-             {"point_size", options_.point_size},      {"background", fmt::format("{:06x}", options_.background)},
-             {"gl_renderer", window_.renderer()},      {"gl_version", window_.version()}};
+  Json facts{{"mode", name_of(*stage_.pane().mode())},
+             {"raster", name_of(options_.rasterizer)},
+             {"point_size", options_.point_size},
+             {"splat_size", options_.splat_size},
+             {"background", fmt::format("{:06x}", options_.background)},
+             {"gl_renderer", window_.renderer()},
+             {"gl_version", window_.version()}};
   facts.update(dataset_provenance(*stage_.dataset()));
   facts["view"] = view_provenance(view());
   facts.update(program_provenance());
@@ -621,6 +625,7 @@ void Viewer::copy_command() {
                                               .size = size_,
                                               .color = dataset->colors.attribute,
                                               .point_size = options_.point_size,
+                                              .splat_size = options_.splat_size,
                                               .background = options_.background}));
   note_ = "the command that renders this view is in the clipboard";
 }

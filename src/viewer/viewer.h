@@ -33,6 +33,7 @@ struct ViewerOptions {
   RasterizerKind rasterizer = RasterizerKind::compute;
   BudgetPolicy policy;
   double point_size = 1.0;
+  double splat_size = 0.0;
   std::uint32_t background = 0x808080;
   std::optional<Camera> camera;    // to begin with; none: sees the whole cloud
   std::optional<CameraPath> path;  // to be flown on a key

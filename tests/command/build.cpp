@@ -165,6 +165,36 @@ class SmallDisk {
   bool mounted_ = false;
 };
 
+TEST_F(BuildCommand, AKdTreeIsReadByAllThatReadTrees) {
+  const std::string city = city_file(folder_, 150'000);
+  const Outcome built = run("build " + city + " -o " + path("kd") + " --partition kd --json");
+  ASSERT_EQ(built.code, 0) << built.err;
+  EXPECT_EQ(result_of(built).at("partition"), "kd");
+  ASSERT_EQ(run("build " + city + " -o " + path("octree")).code, 0);
+  EXPECT_EQ(run("check " + path("kd") + " --against " + city).code, 0);
+  const auto volume = [&](const std::string& tree) {
+    const Json info = Json::parse(run("info --exact --json " + path(tree)).out);
+    return info.at("octree").at("bounding_volume").get<double>();
+  };
+  EXPECT_GT(volume("kd"), 0.0);
+  EXPECT_GT(volume("octree"), 0.0);
+
+  const std::string draw = "render " + path("kd") + " --size 160x90 -o " + path("out.png") + " --mode ";
+  std::string expected;
+  for (const std::string mode : {"brute-force", "hierarchical", "unstructured", "hybrid", "lod"}) {
+    const Outcome drawn = run(draw + mode + " --budget 200k --position-out " + path("p.npy"));
+    ASSERT_EQ(drawn.code, 0) << mode << drawn.err;
+    std::ifstream file(path("p.npy"), std::ios::binary);
+    const std::string positions{std::istreambuf_iterator<char>(file), {}};
+    if (expected.empty()) expected = positions;
+    EXPECT_TRUE(positions == expected) << mode;
+  }
+
+  for (const char* options :
+       {"--partition round", "--partition kd --sampling random", "--partition kd --encoding BROTLI"})
+    EXPECT_EQ(run("build " + city + " -o " + path("x") + " " + options).code, 2) << options;
+}
+
 TEST_F(BuildCommand, AFullDiskLeavesTheOldTree) {
   const SmallDisk disk(path("disk"), "size=16M");
   if (!disk.mounted()) GTEST_SKIP() << "may not mount a disk here";

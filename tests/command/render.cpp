@@ -46,6 +46,33 @@ class RenderCommand : public testing::Test {
   const std::string city_ = city_file(folder_, kPoints);
 };
 
+TEST_F(RenderCommand, EitherDensityEndsWithTheSamePicture) {
+  const std::string hierarchical = "--mode hierarchical --budget 3k --stats " + path("s.json") + " --density ";
+  const Image uniform = picture("uniform.png", hierarchical + "uniform");
+  const Json stats = json_file(path("s.json"));
+  EXPECT_EQ(picture("box-count.png", hierarchical + "box-count").rgb, uniform.rgb);
+  EXPECT_EQ(stats.at("density"), "uniform");
+  EXPECT_GT(stats.at("pixels_estimated"), json_file(path("s.json")).at("pixels_estimated"));
+  expect_wrong_usage("--density dense", "--density");
+}
+
+TEST_F(RenderCommand, NearSplatsAreTheSamePictureInEveryMode) {
+  const std::string near = "--splat-size 0.5 --camera " +
+                           write("low.json", R"({"eye": [565300, 5934150, 12], "target": [565310, 5934300, 14]})") +
+                           " ";
+  const Image points = picture("points.png", near.substr(17) + "--mode brute-force");
+  const Image all = picture("brute-force.png", near + "--mode brute-force");
+  EXPECT_NE(all.rgb, points.rgb);
+  EXPECT_GT(psnr_db(mean_squared_error(all, picture("reference.png", near + "--mode reference"))), 35.0);
+  for (const std::string mode : {"hierarchical", "unstructured", "unstructured --carry index", "hybrid", "lod"})
+    EXPECT_EQ(picture("drawn.png", near + "--budget 20k --stats " + path("s.json") + " --mode " + mode).rgb, all.rgb)
+        << mode;
+  const Json stats = json_file(path("s.json"));
+  EXPECT_EQ(stats.at("splat_size"), 0.5);
+  EXPECT_GT(stats.at("clusters_far").get<int>() + stats.at("clusters_across").get<int>(), 0);
+  for (const char* size : {"0", "-1", "wide"}) expect_wrong_usage(std::string("--splat-size ") + size, "--splat-size");
+}
+
 TEST_F(RenderCommand, EveryModeAndRasterEndsWithTheSamePictureAndFullStats) {
   const Image reference = picture("reference.png", "--mode reference");
   for (const std::string raster : kRasters) {

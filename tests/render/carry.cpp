@@ -43,7 +43,8 @@ INSTANTIATE_TEST_SUITE_P(Rasterizers, EachRasterizerCarries,
 
 // Frame by frame, `next` giving the view of each.
 template <class NextView>
-void expect_both_carries_agree(const PointSet& points, RasterizerKind kind, double point_size, const NextView& next) {
+void expect_both_carries_agree(const PointSet& points, RasterizerKind kind, const PointSize& point_size,
+                               const NextView& next) {
   InOrder by_grid(points, Carry::grid);
   InOrder by_vertices(points, Carry::vertices);
   ProgressiveRenderer grid(by_grid, kind, points.grid, point_size);
@@ -61,14 +62,14 @@ void expect_both_carries_agree(const PointSet& points, RasterizerKind kind, doub
 TEST_P(EachRasterizerCarries, GridAndVerticesAlikeForAStillCamera) {
   const View view = front_view(1.5, {161, 89});
   const PointSet points = random_points(30'000, 700, 1);
-  for (const double point_size : {1.0, 3.0})
+  for (const PointSize& point_size : {PointSize(1.0), PointSize(3.0), PointSize(1.0, 0.03)})
     expect_both_carries_agree(points, GetParam(), point_size, [&](int) { return view; });
 }
 
 TEST_P(EachRasterizerCarries, GridAndVerticesAlikeForAMovingCamera) {
   const Dataset& dataset = scene("city", 60'000);
   const View start = view_of(dataset, "oblique", {161, 89});
-  for (const double point_size : {1.0, 2.0})
+  for (const PointSize& point_size : {PointSize(1.0), PointSize(2.0), PointSize(1.0, 2.0)})
     expect_both_carries_agree(dataset.points, GetParam(), point_size, [&](int frame) {
       View view = start;
       view.eye += start.right * (1.7 * frame) + start.forward * (11.0 * frame);
@@ -222,7 +223,9 @@ TEST_P(EachRasterizerCarries, AwkwardCloudsAndViewsConvergeToBruteForce) {
     View view = awkward_view(dataset.points, random);
     view.size = first.size;
     constexpr double kPointSizes[] = {1.0, 1.0, 2.0, 7.0};
-    const double point_size = kPointSizes[random() % std::size(kPointSizes)];
+    constexpr double kSplatSizes[] = {0.0, 0.0, 0.05, 1.0};
+    const PointSize point_size(kPointSizes[random() % std::size(kPointSizes)],
+                               kSplatSizes[random() % std::size(kSplatSizes)]);
     const auto budget = static_cast<std::uint32_t>(20 + random() % 400);
     const FrameData expected = brute_force_picture(dataset.points, GetParam(), view, point_size);
     covered += expected.covered_pixels();
@@ -236,7 +239,7 @@ TEST_P(EachRasterizerCarries, AwkwardCloudsAndViewsConvergeToBruteForce) {
       }
       ASSERT_TRUE(same_picture(renderer.read(), expected))
           << "round " << rounds << ", cloud " << kind << ", " << name_of(mode) << ", budget " << budget
-          << ", point size " << point_size;
+          << ", point size " << point_size.pixels << ", splat size " << point_size.world;
     }
   }
   EXPECT_GE(rounds, 20);

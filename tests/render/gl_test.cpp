@@ -102,13 +102,14 @@ testing::AssertionResult same_picture(const FrameData& a, const FrameData& b) {
   return testing::AssertionFailure() << count << " pixels differ:\n" << listed << difference_map(differs, a.size);
 }
 
-FrameData brute_force_picture(const PointSet& points, RasterizerKind rasterizer, const View& view, double point_size) {
+FrameData brute_force_picture(const PointSet& points, RasterizerKind rasterizer, const View& view,
+                              const PointSize& point_size) {
   BruteForce method(points);
   return converged_picture(method, rasterizer, points.grid, view, 1, point_size);
 }
 
 FrameData converged_picture(Method& method, RasterizerKind rasterizer, const Grid& grid, const View& view,
-                            std::uint32_t budget, double point_size) {
+                            std::uint32_t budget, const PointSize& point_size) {
   ProgressiveRenderer renderer(method, rasterizer, grid, point_size);
   for (int frame = 0; !renderer.draw(view, budget).converged; ++frame)
     if (frame == 1'000'000) {

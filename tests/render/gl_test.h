@@ -33,9 +33,9 @@ testing::AssertionResult same_picture(const FrameData& a, const FrameData& b);
 
 // Draws one frame of everything.
 FrameData brute_force_picture(const PointSet& points, RasterizerKind rasterizer, const View& view,
-                              double point_size = 1);
+                              const PointSize& point_size = {});
 // Draws frames of `budget` points until converged. Fails after a million frames.
 FrameData converged_picture(Method& method, RasterizerKind rasterizer, const Grid& grid, const View& view,
-                            std::uint32_t budget, double point_size = 1);
+                            std::uint32_t budget, const PointSize& point_size = {});
 
 }  // namespace stipple::test

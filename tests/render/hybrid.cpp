@@ -129,8 +129,8 @@ TEST_P(HybridRasterizer, RandomViewsChangedMidwayConvergeToBruteForce) {
   std::mt19937 random(20'27);
   const auto number = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
   const PointSet points = shells(random);
-  for (const double point_size : {1.0, 3.0, 0.5}) {
-    if (GetParam() == RasterizerKind::points && point_size < 1.0) continue;
+  for (const PointSize& point_size : {PointSize(1.0), PointSize(3.0), PointSize(0.5), PointSize(1.0, 0.02)}) {
+    if (GetParam() == RasterizerKind::points && point_size.pixels < 1.0) continue;
     const auto method = make_method(Mode::hybrid, points, nullptr);
     ProgressiveRenderer renderer(*method, GetParam(), points.grid, point_size);
     std::uint64_t occluded = 0;
@@ -151,7 +151,7 @@ TEST_P(HybridRasterizer, RandomViewsChangedMidwayConvergeToBruteForce) {
       EXPECT_LE(filled, points.size());
       occluded += method->counts().nodes_occluded;
       ASSERT_TRUE(same_picture(renderer.read(), brute_force_picture(points, GetParam(), view, point_size)))
-          << "round " << round << ", point size " << point_size;
+          << "round " << round << ", point size " << point_size.pixels << ", splat size " << point_size.world;
       EXPECT_EQ(renderer.draw(view, budget).points_filled, 0u);
     }
     EXPECT_GT(occluded, 300u);

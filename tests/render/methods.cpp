@@ -64,6 +64,24 @@ TEST_P(EachMethod, ConvergesToBruteForceWithSplats) {
                            brute_force_picture(dataset.points, rasterizer(), view, 2.0)));
 }
 
+TEST_P(EachMethod, ConvergesToBruteForceWithNearSplats) {
+  const Dataset& dataset = scene("forest", kPoints);
+  const View view = view_of(dataset, "low", {160, 90});
+  for (const PointSize& point_size : {PointSize(1.0, 0.6), PointSize(2.0, 1.5)}) {
+    const auto drawn = method(dataset);
+    ProgressiveRenderer renderer(*drawn, rasterizer(), dataset.points.grid, point_size);
+    // On the way there: what is carried was near and becomes far, and the other way round
+    for (int frame = 0; frame < 4; ++frame) {
+      View other = view;
+      other.eye += view.forward * (20.0 - 10.0 * frame);
+      renderer.draw(other, 9'000);
+    }
+    while (!renderer.draw(view, 20'000).converged) {
+    }
+    EXPECT_TRUE(same_picture(renderer.read(), brute_force_picture(dataset.points, rasterizer(), view, point_size)));
+  }
+}
+
 TEST_P(EachMethod, ConvergesToBruteForceAfterTheCameraMoved) {
   const Dataset& dataset = scene("city", kPoints);
   const auto moved = method(dataset);

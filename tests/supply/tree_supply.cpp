@@ -26,7 +26,7 @@ std::uint64_t points_read(TreeSupply& supply) {
   std::uint64_t requested = 0, read = 0;
   while (supply.searching() || read < requested) {
     for (const VisibleCluster& cluster : supply.discovered()) {
-      supply.request(cluster.handle, 0, cluster.count);
+      supply.request(cluster.handle, 0, cluster.count, false);
       requested += cluster.count;
     }
     for (const PointPiece& piece : supply.collect(1000)) read += piece.count;

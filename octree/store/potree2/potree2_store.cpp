@@ -8,6 +8,7 @@
 
 #include "octree/core/error.h"
 #include "octree/store/json_value.h"
+#include "octree/store/potree2/kd_boxes.h"
 #include "octree/store/potree2/node_points.h"
 
 namespace stipple {
@@ -21,11 +22,22 @@ constexpr std::string_view kMetadataName = "metadata.json";
 constexpr double kCellMargin = 1.0;
 
 fs::path folder_of(const std::string& path) {
-  return fs::path(path).filename() == kMetadataName ? fs::path(path).parent_path() : fs::path(path);
+  const fs::path name = fs::path(path).filename();
+  return name == kMetadataName || name == potree2::kKdMetadataName ? fs::path(path).parent_path() : fs::path(path);
 }
 
 std::string file_beside(const std::string& path, std::string_view name) {
   return (folder_of(path) / name).string();
+}
+
+bool is_kd(const std::string& path) {
+  std::error_code ignored;
+  return !fs::exists(file_beside(path, kMetadataName), ignored) &&
+         fs::is_regular_file(file_beside(path, potree2::kKdMetadataName), ignored);
+}
+
+std::string metadata_file(const std::string& path) {
+  return file_beside(path, is_kd(path) ? potree2::kKdMetadataName : kMetadataName);
 }
 
 potree2::Metadata load_metadata(const std::string& path) {
@@ -79,20 +91,33 @@ void check_colours(const potree2::Metadata& metadata, const std::string& path) {
 }  // namespace
 
 Potree2Store::Potree2Store(const std::string& path)
-    : metadata_(load_metadata(file_beside(path, kMetadataName))),
+    : metadata_(load_metadata(metadata_file(path))),
       hierarchy_(file_beside(path, "hierarchy.bin")),
       points_(file_beside(path, "octree.bin")),
       point_file_{points_.size(), potree2::record_bytes(metadata_.schema), metadata_.encoding},
       info_(describe(metadata_, path)) {
-  count_read(fs::file_size(file_beside(path, kMetadataName)));
+  count_read(fs::file_size(metadata_file(path)));
   info_.point_bytes = points_.size();
   info_.hierarchy_bytes = hierarchy_.size();
   sidecar_ = potree2::read_sidecar(folder_of(path).string(), metadata_.points, points_.size(), info_.source.warnings);
   info_.has_details = sidecar_ != nullptr;
   if (sidecar_ && sidecar_->header().fraction > 0.0) info_.minimal_distance = sidecar_->header().fraction;
-  check_colours(metadata_, file_beside(path, kMetadataName));
+  check_colours(metadata_, metadata_file(path));
   if (metadata_.first_piece_bytes > 0 || metadata_.points > 0)
     root_piece_ = read_piece_at(0, metadata_.first_piece_bytes, StoredNode{});
+  if (is_kd(path)) take_boxes(folder_of(path).string());
+}
+
+void Potree2Store::take_boxes(const std::string& folder) {
+  info_.source.format = "kd tree";
+  info_.source.version = "1.0";
+  if (root_piece_.nodes.empty()) return;
+  if (!root_piece_.continued.empty())
+    throw Error(
+        fmt::format("{}: was expected to be one piece, and refers to others. The tree is damaged; build or copy "
+                    "it again.",
+                    hierarchy_.path()));
+  count_read(potree2::read_boxes(folder, root_piece_.nodes));
 }
 
 TreeStore::HierarchyPiece Potree2Store::read_piece(const HierarchyPiece::Continuation& where,
@@ -161,7 +186,7 @@ NodeDetails Potree2Store::read_details(const StoredNode& node) const {
 
 bool is_potree2(const std::string& path) {
   std::error_code ignored;
-  return fs::is_regular_file(file_beside(path, kMetadataName), ignored) &&
+  return fs::is_regular_file(metadata_file(path), ignored) &&
          (fs::exists(file_beside(path, "hierarchy.bin"), ignored) ||
           fs::exists(file_beside(path, "octree.bin"), ignored));
 }

@@ -1,4 +1,4 @@
-// Potree 2.0 trees on disk, ours and PotreeConverter's.
+// Potree 2.0 trees on disk, ours and PotreeConverter's, and our kd trees, which have the same files (kd_boxes.h).
 #pragma once
 
 #include <memory>
@@ -17,8 +17,9 @@ namespace stipple {
 // sidecar, where there is one that belongs to the tree.
 class Potree2Store : public TreeStore {
  public:
-  // `path` is the folder with metadata.json, hierarchy.bin and octree.bin, or its metadata.json. Reads the metadata and
-  // the first piece of the hierarchy, whatever the size of the tree. Throws Error naming file, place and expectation.
+  // `path` is the folder with metadata.json (kdtree.json), hierarchy.bin and octree.bin, or that JSON file. Reads the
+  // metadata and the first piece of the hierarchy, whatever the size of the tree. Throws Error naming file, place and
+  // expectation.
   explicit Potree2Store(const std::string& path);
 
   const TreeInfo& info() const override { return info_; }
@@ -32,6 +33,7 @@ class Potree2Store : public TreeStore {
   NodeDetails read_details(const StoredNode& node) const override;
 
  private:
+  void take_boxes(const std::string& folder);
   HierarchyPiece read_piece_at(std::uint64_t offset, std::uint64_t bytes, const StoredNode& first) const;
 
   potree2::Metadata metadata_;
@@ -43,7 +45,8 @@ class Potree2Store : public TreeStore {
   HierarchyPiece root_piece_;
 };
 
-// Whether `path` is a folder with a metadata.json beside a hierarchy.bin or an octree.bin, or that metadata.json.
+// Whether `path` is a folder with a metadata.json, or a kdtree.json, beside a hierarchy.bin or an octree.bin, or that
+// JSON file.
 bool is_potree2(const std::string& path);
 
 }  // namespace stipple

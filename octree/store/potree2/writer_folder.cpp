@@ -10,9 +10,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 #include "octree/core/error.h"
+#include "octree/store/potree2/kd_boxes.h"
 #include "octree/store/potree2/sidecar.h"
 
 namespace stipple::potree2 {
@@ -21,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> kTreeFiles{"metadata.json", "hierarchy.bin", "octree.bin"};
+// Ours alone.
+constexpr std::array<std::string_view, 4> kKdFiles{kKdMetadataName, "hierarchy.bin", "octree.bin", kBoxesName};
 // May be there: ours, and what PotreeConverter leaves.
 constexpr std::array<std::string_view, 2> kExtraFiles{kSidecarName, "log.txt"};
 
@@ -73,14 +77,15 @@ void check_replaceable(const fs::path& target, bool replace) {
   if (!replace)
     throw Error(fmt::format("{}: is there already. Name another folder, or replace the tree in it with --force.",
                             target.string()));
-  for (const std::string_view name : kTreeFiles)
+  const bool kd = fs::is_regular_file(target / kKdMetadataName, error);
+  const auto files = kd ? std::span<const std::string_view>(kKdFiles) : std::span<const std::string_view>(kTreeFiles);
+  for (const std::string_view name : files)
     if (!fs::is_regular_file(target / name, error))
       throw Error(fmt::format("{}: is no Potree 2.0 tree, it has no {}; it is not replaced. Name another folder.",
                               target.string(), name));
   for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
     const std::string name = entry.path().filename().string();
-    if (std::ranges::find(kTreeFiles, name) == kTreeFiles.end() &&
-        std::ranges::find(kExtraFiles, name) == kExtraFiles.end())
+    if (std::ranges::find(files, name) == files.end() && std::ranges::find(kExtraFiles, name) == kExtraFiles.end())
       throw Error(
           fmt::format("{}: holds {}, which is no part of a Potree 2.0 tree, and is not replaced. Move it away, "
                       "or name another folder.",
