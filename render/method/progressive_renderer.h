@@ -35,6 +35,9 @@ class ProgressiveRenderer {
   // as the new method does. The methods must draw the same points, with the same ids.
   void use(Method& method);
 
+  // Gives the points of the picture, and what the next frame carries of them, these colours.
+  void recolor(const ColorUpload& colors);
+
   // Draws the next frame: the last one, of whatever size, reprojected into `view`, and at most `budget` more points. A
   // converged, still view costs nothing. Commands are issued, not awaited.
   FrameReport draw(const View& view, std::uint32_t budget);

@@ -32,6 +32,8 @@ struct ColorMap {
   Kind kind = Kind::ramp;
   double low = 0.0;
   double high = 1.0;
+
+  bool operator==(const ColorMap&) const = default;
 };
 
 // The map for `color` (as choose_color gives it), stretched over these points: intensity becomes grey, other attributes
@@ -47,6 +49,9 @@ ColorMap map_colors(const TreeStore& tree, const Cloud& root, const std::string&
 // `out` has room for.
 void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, const Column* column, std::size_t first,
                  std::span<PackedPoint> out);
+
+// The colours alone of all points, on all cores.
+Buffer<std::uint32_t> pack_colors(const Cloud& cloud, const ColorMap& map);
 
 // Points with ids 0, 1, ... coloured by the map, on all cores.
 PointSet make_point_set(const Cloud& cloud, const ColorMap& map);

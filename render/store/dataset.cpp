@@ -64,7 +64,9 @@ Cloud root_of(const TreeStore& tree, const std::string& color) {
   return cloud;
 }
 
-void check_room(const SourceInfo& info, bool with_octree, const MemoryLimits& limits) {
+}  // namespace
+
+void check_memory(const SourceInfo& info, bool with_octree, const MemoryLimits& limits) {
   const std::uint64_t bytes = info.point_count * (with_octree ? kBytesPerPointOfOctree : kBytesPerPoint);
   if (bytes <= limits.main) return;
   throw Error(
@@ -73,20 +75,18 @@ void check_room(const SourceInfo& info, bool with_octree, const MemoryLimits& li
                   info.path, info.point_count, bytes, limits.main));
 }
 
-}  // namespace
-
 Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs,
                      const MemoryLimits& limits) {
   if (!is_tree(path)) {
     const auto source = open_source(path);
-    check_room(source->info(), needs.octree, limits);
+    check_memory(source->info(), needs.octree, limits);
     return load_dataset(*source, color, needs.octree);
   }
   const auto start = Clock::now();
   Dataset dataset;
   dataset.tree = open_tree(path);
   dataset.info = dataset.tree->info().source;
-  if (needs.points) check_room(dataset.info, false, limits);
+  if (needs.points) check_memory(dataset.info, false, limits);
   const std::string chosen = choose_color(dataset.info.schema, color);
   const Cloud root = root_of(*dataset.tree, chosen);
   dataset.colors = map_colors(*dataset.tree, root, chosen);
@@ -108,7 +108,7 @@ Dataset open_dataset(const std::vector<std::string>& paths, const std::string& c
                      const MemoryLimits& limits) {
   if (paths.size() == 1) return open_dataset(paths.front(), color, needs, limits);
   const auto source = open_source(paths);
-  check_room(source->info(), needs.octree, limits);
+  check_memory(source->info(), needs.octree, limits);
   return load_dataset(*source, color, needs.octree);
 }
 
@@ -123,6 +123,28 @@ Dataset load_dataset(const PointSource& source, const std::string& color, bool w
   dataset.load_seconds = seconds_since(start);
   if (with_octree) add_octree(dataset);
   return dataset;
+}
+
+Dataset recolored(const Dataset& dataset, const PointSource& source, const std::string& color) {
+  const PointSet& set = dataset.points;
+  Cloud cloud;
+  if (color == "height") {
+    cloud.info = dataset.info;
+    cloud.positions.resize(set.size());
+    for (std::size_t i = 0; i < set.size(); ++i) cloud.positions[set.id(i)] = set.points[i].position;
+  } else {
+    cloud = load_cloud(source, attributes_for_color(color));
+  }
+  if (cloud.size() != set.size())
+    throw Error(fmt::format("{}: has {} points now, and had {} when it was read. Open it again.", cloud.info.path,
+                            cloud.size(), set.size()));
+  Dataset other = dataset;
+  other.colors = map_colors(cloud, color);
+  const Buffer<std::uint32_t> colors = pack_colors(cloud, other.colors);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, set.size(), 65536), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) other.points.points[i].rgba = colors[set.id(i)];
+  });
+  return other;
 }
 
 void add_octree(Dataset& dataset) {

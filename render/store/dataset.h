@@ -47,6 +47,9 @@ inline DatasetNeeds operator|(const DatasetNeeds& a, const DatasetNeeds& b) {
   return {a.points || b.points, a.octree || b.octree};
 }
 
+// Throws Error when loading so many points, and building the octree, takes more than limits.main.
+void check_memory(const SourceInfo& info, bool with_octree, const MemoryLimits& limits);
+
 // Opens, reads and colours `path` (see open_source() and choose_color()). Throws Error before it reads points that
 // limits.main has no room for.
 Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs,
@@ -57,6 +60,11 @@ Dataset open_dataset(const std::vector<std::string>& paths, const std::string& c
 
 // Reads and colours a source that is no tree; builds the octree when asked to.
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree);
+
+// The same points in the same order by another colour (as choose_color() gives it). Reads its attribute from `source`,
+// from which the dataset was loaded; of height nothing. Points must have ids 0, 1, ... in any order. Throws Error when
+// the source has changed.
+Dataset recolored(const Dataset& dataset, const PointSource& source, const std::string& color);
 
 // Builds the octree of all points, which are in memory, and puts them in its order.
 void add_octree(Dataset& dataset);
