@@ -1,4 +1,4 @@
-// S18's incremental shuffle (docs/decisions/0013-while-loading.md): new points go to random slots among those that are
+// S18's incremental shuffle (docs/decisions/0014-while-loading.md): new points go to random slots among those that are
 // taken, what stood there to the end. GATHER collects what stands where new points come; then all are put down.
 layout(local_size_x = 128) in;
 #include "invocation.glsl"

@@ -29,6 +29,7 @@ class Arriving final : public Method {
   Carry carry() const override { return indices_ ? Carry::indices : Carry::vertices; }
   void forget() override;
   void start_view(const View&) override { round_.left = cloud_.slots(); }
+  std::vector<DrawItem> warm_up(const View&, const FeedbackTarget& frame) override;
   Selection select(std::uint32_t budget) override;
   void frame_drawn(const FeedbackTarget& frame) override { last_ = &frame; }
   bool finished() const override { return idle() && cloud_.complete(); }

@@ -38,7 +38,7 @@ void ColorUpload::paint(const ColoredPoints& points) const {
     glUniform1ui(1, piece.count);
     dispatch_items(size, 128);
   }
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void ColorUpload::paint(const FeedbackTarget& picture) const {

@@ -95,7 +95,7 @@ void Shuffler::put(GpuCloud& cloud, std::size_t first, std::span<const PackedPoi
     glUniform1ui(3, shift_);
     glUniform1i(5, ids.empty() ? 0 : 1);
     scatter(cloud, count);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   }
 }
 

@@ -58,6 +58,7 @@ GrowingCloud::GrowingCloud(std::size_t total, ArrivalOrder order, std::uint64_t 
   staged_ids_ = GpuBuffer(2 * kInserted * sizeof(std::uint32_t));
   slots_ = GpuBuffer(3 * kInserted * sizeof(std::uint32_t));
   slot_of_ = keep_slots ? room_for_slots(total) : GpuBuffer(sizeof(std::uint32_t));
+  slot_of_.fill(0);
 }
 
 void GrowingCloud::add(std::span<const PackedPoint> points, std::uint32_t first_id) {
@@ -103,7 +104,7 @@ void GrowingCloud::insert(std::span<const PackedPoint> points, std::uint32_t fir
   if (displaced > 0) move_chunk_by_chunk(gather_, count + displaced, count, displaced);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   move_chunk_by_chunk(put_, 0, 0, count + displaced);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 // Slots beyond the points that there are now are in no chunk that is bound.

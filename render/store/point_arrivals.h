@@ -25,8 +25,8 @@ class PointArrivals {
   virtual std::size_t total() const = 0;
   // How many have come and are not taken; more may at any moment. Throws what reading has thrown.
   virtual std::size_t ready() = 0;
-  // At most `most` of the points that have come; none when there are none just now. Each point once, in any order. Valid
-  // until the next call. Throws what reading has thrown.
+  // At most `most` of the points that have come; none when there are none just now. Each point once, in any order.
+  // Valid until the next call. Throws what reading has thrown.
   virtual Batch take(std::size_t most) = 0;
   // Once all points are taken, they as a cloud; null before. Its colours are final: those of the batches may differ.
   virtual std::shared_ptr<const Dataset> whole() = 0;

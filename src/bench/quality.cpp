@@ -12,7 +12,7 @@ namespace stipple {
 namespace {
 
 // Frames until the picture is that of brute force, or nothing is left to draw. Measuring is outside the clock.
-Curve draw_curve(Mode mode, const Dataset& dataset, const BenchSettings& settings, const View& view,
+Curve curve_of_run(Mode mode, const Dataset& dataset, const BenchSettings& settings, const View& view,
                  const Truth& truth) {
   const auto method = make_method(mode, dataset, {.largest_budget = settings.budget});
   ProgressiveRenderer renderer(*method, RasterizerKind::compute, dataset.points.grid);
@@ -50,7 +50,7 @@ void bench_quality(const Dataset& dataset, const BenchSettings& settings,
   for (const Mode mode : all_modes()) {
     std::vector<Curve> runs;
     for (int run = 0; run < std::min(settings.repeats, 3); ++run)
-      runs.push_back(draw_curve(mode, dataset, settings, view, truth));
+      runs.push_back(curve_of_run(mode, dataset, settings, view, truth));
     QualityRow row{mode, {}};
     for (const double db : kQualities)
       row.reached.push_back(timing_of(runs, fmt::format("{} to {:.0f} dB", name_of(mode), db),

@@ -247,6 +247,7 @@ Json stats_of(const Options& options, const Picture& picture, const Dataset& dat
              {"budget", budget_in_use(options, dataset)},
              {"skip_occluded", method.skip_occluded},
              {"by_yield", method.by_yield},
+             {"keep_still", method.keep_still},
              {"point_size", parse_positive("--point-size", options.draw.point_size)},
              {"background", options.draw.background},
              {"load_ms", dataset.load_seconds * 1e3},
