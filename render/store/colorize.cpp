@@ -180,17 +180,6 @@ void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, con
   }
 }
 
-Buffer<std::uint32_t> pack_colors(const Cloud& cloud, const ColorMap& map) {
-  Buffer<std::uint32_t> colors(cloud.size());
-  const Column* column = cloud.find(map.attribute);
-  tbb::parallel_for(Range(0, cloud.size(), 65536), [&](const Range& range) {
-    std::vector<PackedPoint> packed(range.size());
-    pack_points(map, cloud.positions, column, range.begin(), packed);
-    for (std::size_t i = 0; i < packed.size(); ++i) colors[range.begin() + i] = packed[i].rgba;
-  });
-  return colors;
-}
-
 PointSet make_point_set(const Cloud& cloud, const ColorMap& map) {
   PointSet set;
   set.grid = cloud.info.grid;

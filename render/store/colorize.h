@@ -50,9 +50,6 @@ ColorMap map_colors(const TreeStore& tree, const Cloud& root, const std::string&
 void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, const Column* column, std::size_t first,
                  std::span<PackedPoint> out);
 
-// The colours alone of all points, on all cores.
-Buffer<std::uint32_t> pack_colors(const Cloud& cloud, const ColorMap& map);
-
 // Points with ids 0, 1, ... coloured by the map, on all cores.
 PointSet make_point_set(const Cloud& cloud, const ColorMap& map);
 // The same by the map stretched over the cloud itself.

@@ -125,28 +125,6 @@ Dataset load_dataset(const PointSource& source, const std::string& color, bool w
   return dataset;
 }
 
-Dataset recolored(const Dataset& dataset, const PointSource& source, const std::string& color) {
-  const PointSet& set = dataset.points;
-  Cloud cloud;
-  if (color == "height") {
-    cloud.info = dataset.info;
-    cloud.positions.resize(set.size());
-    for (std::size_t i = 0; i < set.size(); ++i) cloud.positions[set.id(i)] = set.points[i].position;
-  } else {
-    cloud = load_cloud(source, attributes_for_color(color));
-  }
-  if (cloud.size() != set.size())
-    throw Error(fmt::format("{}: has {} points now, and had {} when it was read. Open it again.", cloud.info.path,
-                            cloud.size(), set.size()));
-  Dataset other = dataset;
-  other.colors = map_colors(cloud, color);
-  const Buffer<std::uint32_t> colors = pack_colors(cloud, other.colors);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, set.size(), 65536), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) other.points.points[i].rgba = colors[set.id(i)];
-  });
-  return other;
-}
-
 void add_octree(Dataset& dataset) {
   const auto start = Clock::now();
   PointSet& set = dataset.points;

@@ -61,11 +61,6 @@ Dataset open_dataset(const std::vector<std::string>& paths, const std::string& c
 // Reads and colours a source that is no tree; builds the octree when asked to.
 Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree);
 
-// The same points in the same order by another colour (as choose_color() gives it). Reads its attribute from `source`,
-// from which the dataset was loaded; of height nothing. Points must have ids 0, 1, ... in any order. Throws Error when
-// the source has changed.
-Dataset recolored(const Dataset& dataset, const PointSource& source, const std::string& color);
-
 // Builds the octree of all points, which are in memory, and puts them in its order.
 void add_octree(Dataset& dataset);
 
