@@ -13,7 +13,7 @@ namespace {
 
 // Frames until the picture is that of brute force, or nothing is left to draw. Measuring is outside the clock.
 Curve curve_of_run(Mode mode, const Dataset& dataset, const BenchSettings& settings, const View& view,
-                 const Truth& truth) {
+                   const Truth& truth) {
   const auto method = make_method(mode, dataset, {.largest_budget = settings.budget});
   ProgressiveRenderer renderer(*method, RasterizerKind::compute, dataset.points.grid);
   Curve curve;
