@@ -17,6 +17,13 @@ const Column* Cloud::find(std::string_view name) const {
 
 Cloud load_cloud(const PointSource& source, const std::vector<std::string>& attributes) {
   Cloud cloud;
+  load_cloud(source, attributes, cloud, {});
+  return cloud;
+}
+
+void load_cloud(const PointSource& source, const std::vector<std::string>& attributes, Cloud& cloud,
+                const PointsArrived& arrived) {
+  cloud = {};
   cloud.info = source.info();
   // The largest two values of an id mean "no point" somewhere on the GPU.
   constexpr std::uint64_t kMaxPoints = 0xFFFFFFFEull;
@@ -48,9 +55,9 @@ Cloud load_cloud(const PointSource& source, const std::vector<std::string>& attr
     }
     GridBox& box = bounds.local();
     for (const glm::ivec3& p : batch.positions) box.extend(p);
+    if (arrived) arrived(batch.first, batch.positions.size());
   });
   for (const GridBox& box : bounds) cloud.bounds.extend(box);
-  return cloud;
 }
 
 }  // namespace stipple

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <string>
 #include <string_view>
@@ -27,5 +28,12 @@ struct Cloud {
 // Reads positions and the named attributes on all cores. Names the source lacks are left out: ask find(). Throws Error
 // when the source does, or when it has more points than 32-bit ids can tell apart (2^32 - 2).
 Cloud load_cloud(const PointSource& source, const std::vector<std::string>& attributes);
+
+// Told, by several threads at once, that points [first, first + count) are there.
+using PointsArrived = std::function<void(std::uint64_t first, std::size_t count)>;
+// The same into `cloud`, which has its size before the first points arrive and its bounds after the last. What
+// `arrived` throws ends the reading.
+void load_cloud(const PointSource& source, const std::vector<std::string>& attributes, Cloud& cloud,
+                const PointsArrived& arrived);
 
 }  // namespace stipple

@@ -31,6 +31,12 @@ void GpuBuffer::fill(std::uint32_t value, std::size_t offset, std::size_t bytes)
                               GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }
 
+void GpuBuffer::fill(const std::array<std::int32_t, 4>& values) {
+  if (bytes_)
+    glClearNamedBufferSubData(name(), GL_RGBA32I, 0, static_cast<GLsizeiptr>(bytes_), GL_RGBA_INTEGER, GL_INT,
+                              values.data());
+}
+
 void GpuBuffer::bind_storage(GLuint binding, std::size_t offset, std::size_t bytes) const {
   glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, name(), static_cast<GLintptr>(offset),
                     static_cast<GLsizeiptr>(bytes));

@@ -1,6 +1,7 @@
 // Buffers of the GPU.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -28,6 +29,8 @@ class GpuBuffer {
   // Fills the range with a repeated 32-bit value. Offset and size in bytes, multiples of 4.
   void fill(std::uint32_t value, std::size_t offset, std::size_t bytes);
   void fill(std::uint32_t value) { fill(value, 0, bytes_); }
+  // Fills all of it with four repeated values. The size must be a multiple of 16 bytes.
+  void fill(const std::array<std::int32_t, 4>& values);
 
   void bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name()); }
   void bind_storage(GLuint binding, std::size_t offset, std::size_t bytes) const;

@@ -21,6 +21,7 @@ class BruteForce final : public Method {
     return selection;
   }
   bool finished() const override { return drawn_; }
+  std::optional<std::vector<ColoredPoints>> colored() const override { return colored_points(cloud_); }
 
  private:
   GpuCloud cloud_;

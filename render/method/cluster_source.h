@@ -23,6 +23,8 @@ class ClusterSource {
   virtual bool finished() const = 0;
   // Adds what it knows.
   virtual void count(SelectionCounts& counts) const = 0;
+  // See Method::colored().
+  virtual std::optional<std::vector<ColoredPoints>> colored() const { return std::nullopt; }
 };
 
 // All of them, always.
@@ -35,6 +37,11 @@ class WholeCloud final : public ClusterSource {
   void load(std::uint32_t, ClusterSelector&) override {}
   bool finished() const override { return true; }
   void count(SelectionCounts&) const override {}
+  std::optional<std::vector<ColoredPoints>> colored() const override {
+    std::vector<ColoredPoints> colored;
+    for (const ClusterTable::Chunk& chunk : table_.chunks) colored.push_back({&chunk.points, &chunk.ids});
+    return colored;
+  }
 
  private:
   ClusterTable table_;

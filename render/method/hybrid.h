@@ -30,6 +30,7 @@ class Hybrid final : public Method {
   void frame_drawn(const FeedbackTarget& frame) override;
   bool finished() const override { return selected_ && open_ == 0 && clusters_->finished(); }
   SelectionCounts counts() const override;
+  std::optional<std::vector<ColoredPoints>> colored() const override { return clusters_->colored(); }
 
  private:
   std::unique_ptr<ClusterSource> clusters_;

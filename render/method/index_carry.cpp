@@ -30,7 +30,16 @@ GpuBuffer upload_slots(std::span<const std::uint32_t> slot_of) {
 
 IndexCarry::IndexCarry(const GpuCloud& cloud, std::span<const std::uint32_t> slot_of)
     : cloud_(cloud),
-      slot_of_(upload_slots(slot_of)),
+      own_slots_(upload_slots(slot_of)),
+      slot_of_(own_slots_),
+      commands_(cloud.chunks().size() * sizeof(CarriedCommand)),
+      count_(compile_pass({{"COUNT"}})),
+      begin_(compile_pass({{"BEGIN"}})),
+      write_(compile_pass({})) {}
+
+IndexCarry::IndexCarry(const GpuCloud& cloud, const GpuBuffer& slot_of)
+    : cloud_(cloud),
+      slot_of_(slot_of),
       commands_(cloud.chunks().size() * sizeof(CarriedCommand)),
       count_(compile_pass({{"COUNT"}})),
       begin_(compile_pass({{"BEGIN"}})),

@@ -16,6 +16,10 @@ class IndexCarry {
   // `slot_of[id]`: where the cloud, which must outlive this, has the point. Throws Error when there are more than this
   // driver's shaders reach.
   IndexCarry(const GpuCloud& cloud, std::span<const std::uint32_t> slot_of);
+  // The same in a buffer, which may change between frames and must outlive this, too.
+  IndexCarry(const GpuCloud& cloud, const GpuBuffer& slot_of);
+  IndexCarry(const IndexCarry&) = delete;
+  IndexCarry& operator=(const IndexCarry&) = delete;
 
   // Nothing is carried.
   void forget() { places_ = {}; }
@@ -26,7 +30,8 @@ class IndexCarry {
 
  private:
   const GpuCloud& cloud_;
-  GpuBuffer slot_of_;
+  GpuBuffer own_slots_;
+  const GpuBuffer& slot_of_;
   GpuBuffer places_;
   GpuBuffer commands_;
   Program count_;

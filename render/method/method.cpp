@@ -36,7 +36,8 @@ ClusterSelector::Options selector_options(const MethodOptions& options, std::uin
   return {.largest_budget = budget, .skip_occluded = options.skip_occluded, .by_yield = options.by_yield};
 }
 
-std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions& options) {
+// Throws Error where there is too little memory for mode hybrid; else gives the budget that it is made for.
+std::uint32_t check_hybrid(const PointSet& points, const MethodOptions& options) {
   const std::uint64_t sorting = points.size() * kBytesPerPointOfOctree;
   if (sorting > options.limits.main)
     throw Error(
@@ -47,6 +48,11 @@ std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions&
   check_room(Mode::hybrid, points.size(),
              cluster_bytes_for(points.size()) + ClusterSelector::bytes_for(clusters_for(points.size()), budget),
              options.limits);
+  return budget;
+}
+
+std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions& options) {
+  const std::uint32_t budget = check_hybrid(points, options);
   return std::make_unique<Hybrid>(std::make_unique<WholeCloud>(upload_clusters(points)),
                                   selector_options(options, budget), options.keep_still);
 }
@@ -172,6 +178,12 @@ std::unique_ptr<Method> make_method(Mode mode, const Dataset& dataset, const Met
   if (mode == Mode::lod && dataset.tree) return make_lod(dataset, options);
   if (mode == Mode::hybrid && dataset.tree) return make_hybrid(dataset, options);
   return make_method(mode, dataset.points, dataset.octree ? &*dataset.octree : nullptr, options);
+}
+
+std::unique_ptr<Method> make_hybrid(const PointSet& points, const ClusterCut& cut, const MethodOptions& options) {
+  const std::uint32_t budget = check_hybrid(points, options);
+  return std::make_unique<Hybrid>(std::make_unique<WholeCloud>(upload_clusters(points, cut)),
+                                  selector_options(options, budget), options.keep_still);
 }
 
 }  // namespace stipple

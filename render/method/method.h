@@ -13,6 +13,8 @@
 #include "render/frame/camera.h"
 #include "render/frame/point_size.h"
 #include "render/raster/rasterizer.h"
+#include "render/store/cluster_cut.h"
+#include "render/store/color_upload.h"
 #include "render/store/dataset.h"
 
 namespace stipple {
@@ -77,6 +79,9 @@ class Method {
   // budget.
   virtual bool finished() const = 0;
   virtual SelectionCounts counts() const { return {}; }
+  // The points on the GPU that it draws from, all of them: new colours may be painted on them (ColorUpload). Nothing:
+  // what it draws comes from elsewhere.
+  virtual std::optional<std::vector<ColoredPoints>> colored() const { return std::nullopt; }
 };
 
 enum class Mode { brute_force, hierarchical, unstructured, hybrid, lod, subsample };
@@ -107,5 +112,7 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
                                     const MethodOptions& options = {});
 // The same for a dataset, whose tree may be on disk.
 std::unique_ptr<Method> make_method(Mode mode, const Dataset& dataset, const MethodOptions& options = {});
+// Mode hybrid for points that are cut already, by cut_cloud().
+std::unique_ptr<Method> make_hybrid(const PointSet& points, const ClusterCut& cut, const MethodOptions& options);
 
 }  // namespace stipple

@@ -116,6 +116,11 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   glFinish();
 }
 
+void ProgressiveRenderer::recolor(const ColorUpload& colors) {
+  if (!targets_[0]) return;
+  for (const auto& target : targets_) colors.paint(*target);
+}
+
 FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   if (view != view_) {
     if (!targets_[0]) resize(view.size);

@@ -36,6 +36,9 @@ class ProgressiveRenderer {
   // as the new method does. The methods must draw the same points, with the same ids.
   void use(Method& method);
 
+  // Gives the points of the picture, from which the next frame carries them, these colours.
+  void recolor(const ColorUpload& colors);
+
   // Draws the next frame: the last one, of whatever size, reprojected into `view` or, where the view is the same and
   // the method likes it, as it stands; and at most `budget` more points. A converged, still view costs nothing.
   // Commands are issued, not awaited.

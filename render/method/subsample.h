@@ -17,6 +17,7 @@ class Subsample final : public Method {
   void start_view(const View&) override { drawn_ = 0; }
   Selection select(std::uint32_t budget) override;
   bool finished() const override { return drawn_ == cloud_.size(); }
+  std::optional<std::vector<ColoredPoints>> colored() const override { return colored_points(cloud_); }
 
  private:
   GpuCloud cloud_;

@@ -29,7 +29,7 @@ std::vector<std::uint32_t> slots_of(const PointSet& points, std::uint64_t seed) 
 }  // namespace
 
 Unstructured::Unstructured(const PointSet& points, std::uint64_t seed, Carry carry)
-    : cloud_(upload_shuffled(points, seed)), left_(points.size()) {
+    : cloud_(upload_shuffled(points, seed)), round_{.left = points.size()} {
   if (carry == Carry::indices && points.size() > 0) indices_.emplace(cloud_, slots_of(points, seed));
 }
 
@@ -42,16 +42,21 @@ std::vector<DrawItem> Unstructured::warm_up(const View&, const FeedbackTarget& f
   return items;
 }
 
-Selection Unstructured::select(std::uint32_t budget) {
-  const std::size_t count = std::min<std::size_t>(budget, left_);
-  const std::size_t before_end = std::min(count, cloud_.size() - cursor_);
+Selection SlotRound::next(const GpuCloud& cloud, std::size_t slots, std::uint32_t budget) {
+  const std::size_t count = std::min<std::size_t>(budget, left);
+  const std::size_t before_end = std::min(count, slots - cursor);
   Selection selection;
-  cloud_.append_items(cursor_, before_end, selection.items);
-  cloud_.append_items(0, count - before_end, selection.items);
-  if (indices_) indices_->append_items(selection.items);
+  cloud.append_items(cursor, before_end, selection.items);
+  cloud.append_items(0, count - before_end, selection.items);
   selection.points = count;
-  if (cloud_.size() > 0) cursor_ = (cursor_ + count) % cloud_.size();
-  left_ -= count;
+  if (slots > 0) cursor = (cursor + count) % slots;
+  left -= count;
+  return selection;
+}
+
+Selection Unstructured::select(std::uint32_t budget) {
+  Selection selection = round_.next(cloud_, cloud_.size(), budget);
+  if (indices_) indices_->append_items(selection.items);
   return selection;
 }
 

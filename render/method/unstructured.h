@@ -11,6 +11,15 @@
 
 namespace stipple {
 
+// Stretches of the slots of a shuffled cloud, one after the other, around its end to its beginning.
+struct SlotRound {
+  std::size_t cursor = 0;  // first slot of the next stretch
+  std::size_t left = 0;    // slots not drawn yet
+
+  // The next stretch, of at most `budget` of the cloud's first `slots` slots, all of them at some time.
+  Selection next(const GpuCloud& cloud, std::size_t slots, std::uint32_t budget);
+};
+
 // The whole cloud lies shuffled on the GPU. Each frame draws what is carried and the next stretch of the buffer, around
 // its end to its beginning; a view is finished when the stretches drawn for it add up to the whole buffer.
 class Unstructured final : public Method {
@@ -23,19 +32,19 @@ class Unstructured final : public Method {
     if (indices_) indices_->forget();
   }
   // The next stretch begins where the last ended, also for a new view.
-  void start_view(const View&) override { left_ = cloud_.size(); }
+  void start_view(const View&) override { round_.left = cloud_.size(); }
   std::vector<DrawItem> warm_up(const View&, const FeedbackTarget&) override;
   Selection select(std::uint32_t budget) override;
   void frame_drawn(const FeedbackTarget& frame) override {
     if (indices_) indices_->prepare(frame);
   }
-  bool finished() const override { return left_ == 0; }
+  bool finished() const override { return round_.left == 0; }
+  std::optional<std::vector<ColoredPoints>> colored() const override { return colored_points(cloud_); }
 
  private:
   GpuCloud cloud_;
   std::optional<IndexCarry> indices_;
-  std::size_t cursor_ = 0;  // first slot of the next stretch
-  std::size_t left_;        // slots not drawn yet for this view
+  SlotRound round_;  // of this view
 };
 
 }  // namespace stipple

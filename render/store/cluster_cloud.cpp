@@ -8,7 +8,6 @@
 
 #include "octree/build/morton.h"
 #include "octree/core/error.h"
-#include "render/store/cluster_cut.h"
 
 namespace stipple {
 namespace {
@@ -39,13 +38,21 @@ void append_chunk(ClusterTable& table, const PointSet& points, std::span<const s
 
 }  // namespace
 
-// Chunks end where a cluster ends.
+ClusterCut cut_cloud(const PointSet& points) {
+  if (points.size() == 0) return {};
+  return cut_clusters(points.grid, points.bounds, points.points, points_of_a_cluster(points.size()),
+                      root_cube(points.grid, points.bounds).edge);
+}
+
 ClusterTable upload_clusters(const PointSet& points) {
+  return upload_clusters(points, cut_cloud(points));
+}
+
+// Chunks end where a cluster ends.
+ClusterTable upload_clusters(const PointSet& points, const ClusterCut& cut) {
   ClusterTable table;
   if (points.size() == 0) return table;
   table.root_edge = root_cube(points.grid, points.bounds).edge;
-  const ClusterCut cut =
-      cut_clusters(points.grid, points.bounds, points.points, points_of_a_cluster(points.size()), table.root_edge);
   const std::span<const std::uint32_t> order(cut.order);
   std::vector<ClusterTable::Row> rows;
   std::vector<float> log_pixels;

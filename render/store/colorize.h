@@ -32,6 +32,8 @@ struct ColorMap {
   Kind kind = Kind::ramp;
   double low = 0.0;
   double high = 1.0;
+
+  bool operator==(const ColorMap&) const = default;
 };
 
 // The map for `color` (as choose_color gives it), stretched over these points: intensity becomes grey, other attributes

@@ -64,7 +64,9 @@ Cloud root_of(const TreeStore& tree, const std::string& color) {
   return cloud;
 }
 
-void check_room(const SourceInfo& info, bool with_octree, const MemoryLimits& limits) {
+}  // namespace
+
+void check_memory(const SourceInfo& info, bool with_octree, const MemoryLimits& limits) {
   const std::uint64_t bytes = info.point_count * (with_octree ? kBytesPerPointOfOctree : kBytesPerPoint);
   if (bytes <= limits.main) return;
   throw Error(
@@ -73,20 +75,18 @@ void check_room(const SourceInfo& info, bool with_octree, const MemoryLimits& li
                   info.path, info.point_count, bytes, limits.main));
 }
 
-}  // namespace
-
 Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs,
                      const MemoryLimits& limits) {
   if (!is_tree(path)) {
     const auto source = open_source(path);
-    check_room(source->info(), needs.octree, limits);
+    check_memory(source->info(), needs.octree, limits);
     return load_dataset(*source, color, needs.octree);
   }
   const auto start = Clock::now();
   Dataset dataset;
   dataset.tree = open_tree(path);
   dataset.info = dataset.tree->info().source;
-  if (needs.points) check_room(dataset.info, false, limits);
+  if (needs.points) check_memory(dataset.info, false, limits);
   const std::string chosen = choose_color(dataset.info.schema, color);
   const Cloud root = root_of(*dataset.tree, chosen);
   dataset.colors = map_colors(*dataset.tree, root, chosen);
@@ -108,7 +108,7 @@ Dataset open_dataset(const std::vector<std::string>& paths, const std::string& c
                      const MemoryLimits& limits) {
   if (paths.size() == 1) return open_dataset(paths.front(), color, needs, limits);
   const auto source = open_source(paths);
-  check_room(source->info(), needs.octree, limits);
+  check_memory(source->info(), needs.octree, limits);
   return load_dataset(*source, color, needs.octree);
 }
 

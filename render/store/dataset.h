@@ -47,6 +47,9 @@ inline DatasetNeeds operator|(const DatasetNeeds& a, const DatasetNeeds& b) {
   return {a.points || b.points, a.octree || b.octree};
 }
 
+// Throws Error when loading so many points, and building the octree, takes more than limits.main.
+void check_memory(const SourceInfo& info, bool with_octree, const MemoryLimits& limits);
+
 // Opens, reads and colours `path` (see open_source() and choose_color()). Throws Error before it reads points that
 // limits.main has no room for.
 Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs,

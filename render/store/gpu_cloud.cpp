@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "render/gpu/program.h"
-
 namespace stipple {
 namespace {
 
@@ -32,21 +30,6 @@ std::uint32_t permute(std::uint32_t x, std::uint32_t prime) {
   return x <= prime / 2 ? residue : prime - residue;
 }
 
-// Scatters the staged points to the chunks, some of which are bound at a time.
-void scatter(GpuCloud& cloud, std::size_t staged, std::size_t bound) {
-  const auto chunks = cloud.chunks();
-  for (std::size_t base = 0; base < chunks.size(); base += bound) {
-    for (std::size_t k = 0; k < bound; ++k) {
-      // Unused bindings repeat the last chunk: no slot leads there
-      const GpuCloud::Chunk& chunk = chunks[std::min(base + k, chunks.size() - 1)];
-      chunk.points.bind_storage(static_cast<GLuint>(2 + k));
-      chunk.ids.bind_storage(static_cast<GLuint>(2 + bound + k));
-    }
-    glUniform1ui(4, static_cast<GLuint>(base));
-    dispatch_items(staged, 128);
-  }
-}
-
 }  // namespace
 
 GpuCloud::GpuCloud(std::size_t points) : size_(points) {
@@ -71,6 +54,12 @@ void GpuCloud::append_items(std::size_t first, std::size_t count, std::vector<Dr
   }
 }
 
+std::vector<ColoredPoints> colored_points(const GpuCloud& cloud) {
+  std::vector<ColoredPoints> colored;
+  for (const GpuCloud::Chunk& chunk : cloud.chunks()) colored.push_back({&chunk.points, &chunk.ids});
+  return colored;
+}
+
 GpuCloud upload_in_order(const PointSet& points) {
   GpuCloud cloud(points.size());
   Buffer<std::uint32_t> counted;
@@ -85,32 +74,52 @@ GpuCloud upload_in_order(const PointSet& points) {
   return cloud;
 }
 
+Shuffler::Shuffler(std::size_t total, std::uint64_t seed)
+    : prime_(largest_shuffle_prime(static_cast<std::uint32_t>(total))),
+      shift_(prime_ ? static_cast<std::uint32_t>(seed % prime_) : 0),
+      bound_(bound_chunks()),
+      program_(Program::compute("shuffle.glsl", {{"CHUNKS", std::to_string(bound_)},
+                                                 {"CHUNK_POINTS", std::to_string(GpuCloud::kChunkPoints) + "u"}})),
+      staged_points_(std::min(kStagedPoints, total) * sizeof(PackedPoint)),
+      staged_ids_(std::min(kStagedPoints, total) * sizeof(std::uint32_t)) {}
+
+void Shuffler::put(GpuCloud& cloud, std::size_t first, std::span<const PackedPoint> points,
+                   std::span<const std::uint32_t> ids) {
+  for (std::size_t done = 0; done < points.size(); done += kStagedPoints) {
+    const std::size_t count = std::min(kStagedPoints, points.size() - done);
+    staged_points_.write(0, points.subspan(done, count));
+    if (!ids.empty()) staged_ids_.write(0, ids.subspan(done, count));
+    program_.use();
+    staged_points_.bind_storage(0);
+    staged_ids_.bind_storage(1);
+    glUniform1ui(0, static_cast<GLuint>(first + done));
+    glUniform1ui(1, static_cast<GLuint>(count));
+    glUniform1ui(2, prime_);
+    glUniform1ui(3, shift_);
+    glUniform1i(5, ids.empty() ? 0 : 1);
+    scatter(cloud, count);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  }
+}
+
+// To the chunks, some of which are bound at a time.
+void Shuffler::scatter(GpuCloud& cloud, std::size_t staged) const {
+  const auto chunks = cloud.chunks();
+  for (std::size_t base = 0; base < chunks.size(); base += bound_) {
+    for (std::size_t k = 0; k < bound_; ++k) {
+      // Unused bindings repeat the last chunk: no slot leads there
+      const GpuCloud::Chunk& chunk = chunks[std::min(base + k, chunks.size() - 1)];
+      chunk.points.bind_storage(static_cast<GLuint>(2 + k));
+      chunk.ids.bind_storage(static_cast<GLuint>(2 + bound_ + k));
+    }
+    glUniform1ui(4, static_cast<GLuint>(base));
+    dispatch_items(staged, 128);
+  }
+}
+
 GpuCloud upload_shuffled(const PointSet& points, std::uint64_t seed) {
   GpuCloud cloud(points.size());
-  const auto total = static_cast<std::uint32_t>(points.size());
-  const std::uint32_t prime = largest_shuffle_prime(total);
-  const std::size_t bound = bound_chunks();
-  const Program shuffle = Program::compute(
-      "shuffle.glsl",
-      {{"CHUNKS", std::to_string(bound)}, {"CHUNK_POINTS", std::to_string(GpuCloud::kChunkPoints) + "u"}});
-  GpuBuffer staged_points(kStagedPoints * sizeof(PackedPoint));
-  GpuBuffer staged_ids(kStagedPoints * sizeof(std::uint32_t));
-
-  for (std::size_t first = 0; first < points.size(); first += kStagedPoints) {
-    const std::size_t count = std::min(kStagedPoints, points.size() - first);
-    staged_points.write(0, std::span(points.points).subspan(first, count));
-    if (!points.ids.empty()) staged_ids.write(0, std::span(points.ids).subspan(first, count));
-    shuffle.use();
-    staged_points.bind_storage(0);
-    staged_ids.bind_storage(1);
-    glUniform1ui(0, static_cast<GLuint>(first));
-    glUniform1ui(1, static_cast<GLuint>(count));
-    glUniform1ui(2, prime);
-    glUniform1ui(3, prime ? static_cast<GLuint>(seed % prime) : 0);
-    glUniform1i(5, points.ids.empty() ? 0 : 1);
-    scatter(cloud, count, bound);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-  }
+  Shuffler(points.size(), seed).put(cloud, 0, points.points, points.ids);
   return cloud;
 }
 

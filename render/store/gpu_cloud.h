@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "render/frame/point_set.h"
+#include "render/gpu/program.h"
 #include "render/raster/rasterizer.h"
+#include "render/store/color_upload.h"
 
 namespace stipple {
 
@@ -35,12 +37,36 @@ class GpuCloud {
   std::vector<Chunk> chunks_;
 };
 
+// What new colours may be painted on.
+std::vector<ColoredPoints> colored_points(const GpuCloud& cloud);
+
 // Slot i holds point i.
 GpuCloud upload_in_order(const PointSet& points);
 
-// Slot permute(i) holds point i, the permutation computed on the GPU: S19's prime-permutation shuffle with P the
-// largest prime <= size with P = 3 mod 4, applied twice, the seed added in between. Equal seeds give equal orders;
+// Puts points into slots permute(i), the permutation computed on the GPU: S19's prime-permutation shuffle with P the
+// largest prime <= total with P = 3 mod 4, applied twice, the seed added in between. Equal seeds give equal orders;
 // slots from P on hold the points from P on.
+class Shuffler {
+ public:
+  // For clouds of `total` points.
+  Shuffler(std::size_t total, std::uint64_t seed);
+
+  // Points first, first + 1, ...; without `ids` these are their ids.
+  void put(GpuCloud& cloud, std::size_t first, std::span<const PackedPoint> points,
+           std::span<const std::uint32_t> ids = {});
+
+ private:
+  void scatter(GpuCloud& cloud, std::size_t staged) const;
+
+  std::uint32_t prime_;  // 0: no shuffle
+  std::uint32_t shift_;
+  std::size_t bound_;  // chunks at a time
+  Program program_;
+  GpuBuffer staged_points_;
+  GpuBuffer staged_ids_;
+};
+
+// Slot permute(i) holds point i.
 GpuCloud upload_shuffled(const PointSet& points, std::uint64_t seed);
 
 // The largest prime p <= n with p = 3 mod 4, or 0 when n < 3.

@@ -22,6 +22,13 @@ std::vector<double> runs_of(const Json& part, const std::string& path) {
   return runs->get<std::vector<double>>();
 }
 
+// Of parts that are a quality reached, and were; nothing else has points that may differ.
+std::optional<PointsMove> points_moved(const Json& before, const Json& now) {
+  if (now.value("unit", "") != "points drawn" || before.value("unit", "") != "points drawn") return std::nullopt;
+  const PointsMove move{now.at("part"), before.value("amount", 0.0), now.at("amount")};
+  return move.old_points == move.new_points ? std::nullopt : std::optional(move);
+}
+
 const Json* find_part(const Json& parts, const std::string& name) {
   const auto found = std::ranges::find_if(parts, [&](const Json& part) { return part.value("part", "") == name; });
   return found == parts.end() ? nullptr : &*found;
@@ -54,6 +61,7 @@ BenchComparison compare_benches(const Json& old_document, const Json& new_docume
     const Json* const before = find_part(old_document["parts"], name);
     if (!before) continue;
     ++comparison.compared;
+    if (const auto move = points_moved(*before, now)) comparison.other_points.push_back(*move);
     if (apart(runs_of(*before, old_path), runs_of(now, "this run")))
       comparison.moved.push_back({name, before->at("median_ms"), now.at("median_ms")});
   }

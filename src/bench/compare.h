@@ -17,8 +17,18 @@ struct Move {
   double ratio() const { return new_ms / old_ms; }
 };
 
+// What a method now draws to reach a quality, and drew.
+struct PointsMove {
+  std::string part;
+  double old_points = 0.0;
+  double new_points = 0.0;
+
+  double ratio() const { return new_points / old_points; }
+};
+
 struct BenchComparison {
   std::vector<Move> moved;               // beyond noise, in the order of the new run
+  std::vector<PointsMove> other_points;  // points have no noise: any difference counts
   std::size_t compared = 0;              // parts that both have
   std::vector<std::string> differences;  // in machine, cloud or settings: then times say little. In sentences
 };

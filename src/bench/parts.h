@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "octree/cloud/source.h"
+#include "render/method/method.h"
 #include "render/store/dataset.h"
 #include "src/bench/stopwatch.h"
 #include "src/run/view_run.h"
@@ -28,6 +30,19 @@ void bench_building(const PointSource& source, const BenchSettings& settings, co
 
 // Building the octree in memory, and the reference renderer.
 void bench_processing(const Dataset& dataset, const BenchSettings& settings, const TimingSink& sink);
+
+// What it takes a method to reach a quality.
+struct QualityRow {
+  Mode mode = Mode::hybrid;
+  // To 30, 35, 40, 45 dB (kQualities) and to the picture of brute force; empty where it does not get there. The amount
+  // is that of points drawn, which is equal in all runs.
+  std::vector<std::optional<Timing>> reached;
+};
+
+// Time against error: each method draws the oblique view with `budget` points a frame from nothing, held against the
+// reference. The dataset must have its octree. At most 3 runs. `show` gets each row. Needs a context.
+void bench_quality(const Dataset& dataset, const BenchSettings& settings,
+                   const std::function<void(const QualityRow&)>& show);
 
 // For each rasterizer: brute force, and the parts of a progressive frame in the middle of converging. Needs a context.
 void bench_drawing(const Dataset& dataset, const BenchSettings& settings, const TimingSink& sink);

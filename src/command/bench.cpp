@@ -23,13 +23,14 @@
 #include "src/json/json.h"
 #include "src/run/provenance.h"
 #include "src/scene/scene.h"
+#include "src/study/curve.h"
 
 namespace stipple {
 namespace {
 
 struct Options {
   std::string input;
-  std::vector<std::string> parts{"reading", "building", "processing", "drawing"};
+  std::vector<std::string> parts{"reading", "building", "processing", "drawing", "quality"};
   std::string points = "20M";
   std::string size = "1280x720";
   std::string budget = "1M";
@@ -84,11 +85,35 @@ void print_timing(const Timing& timing) {
   std::fflush(stdout);
 }
 
+void print_quality_head() {
+  fmt::print("\nTime against error: points drawn and time to a quality, oblique view, from nothing\n{:<14}", "");
+  for (const double db : kQualities) fmt::print("{:>21}", fmt::format("{:.0f} dB", db));
+  fmt::print("{:>21}\n", "identical");
+}
+
+void print_quality(const QualityRow& row) {
+  fmt::print("{:<14}", name_of(row.mode));
+  for (const std::optional<Timing>& reached : row.reached)
+    fmt::print("{:>21}",
+               reached ? fmt::format("{:.2f} M {:.0f} ms", reached->amount * 1e-6, reached->median_ms()) : "-");
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
 Json json_of(const BenchComparison& comparison) {
   Json moved = Json::array();
   for (const Move& move : comparison.moved)
     moved.push_back({{"part", move.part}, {"old_ms", move.old_ms}, {"new_ms", move.new_ms}, {"ratio", move.ratio()}});
-  return {{"parts", comparison.compared}, {"moved", moved}, {"differences", comparison.differences}};
+  Json points = Json::array();
+  for (const PointsMove& move : comparison.other_points)
+    points.push_back({{"part", move.part},
+                      {"old_points", move.old_points},
+                      {"new_points", move.new_points},
+                      {"ratio", move.ratio()}});
+  return {{"parts", comparison.compared},
+          {"moved", moved},
+          {"other_points", points},
+          {"differences", comparison.differences}};
 }
 
 void print_comparison(const BenchComparison& comparison, const std::string& path) {
@@ -96,6 +121,10 @@ void print_comparison(const BenchComparison& comparison, const std::string& path
              comparison.compared);
   for (const Move& move : comparison.moved)
     fmt::print("{:<40}{:>10.2f} ms{:>10.2f} ms{:>8.2f} x\n", move.part, move.old_ms, move.new_ms, move.ratio());
+  if (!comparison.other_points.empty()) fmt::print("Other numbers of points drawn to a quality:\n");
+  for (const PointsMove& move : comparison.other_points)
+    fmt::print("{:<40}{:>10.2f} M {:>10.2f} M {:>8.2f} x\n", move.part, move.old_points * 1e-6, move.new_points * 1e-6,
+               move.ratio());
   for (const std::string& difference : comparison.differences) warn(fmt::format("{}: {}", path, difference));
 }
 
@@ -121,9 +150,19 @@ void run(const Options& options) {
   // Builds bound what the whole process has resident: before the cloud is in memory
   if (options.wants("reading")) bench_reading(*source, settings, sink);
   if (options.wants("building")) bench_building(*source, settings, sink);
-  const Dataset dataset = load_dataset(*source, "", false);
+  Dataset dataset = load_dataset(*source, "", false);
   if (options.wants("processing")) bench_processing(dataset, settings, sink);
   if (options.wants("drawing")) bench_drawing(dataset, settings, sink);
+  if (options.wants("quality")) {
+    // It puts the points in another order: nothing else may come after
+    add_octree(dataset);
+    if (!options.json) print_quality_head();
+    bench_quality(dataset, settings, [&](const QualityRow& row) {
+      for (const std::optional<Timing>& reached : row.reached)
+        if (reached) parts.push_back(reached->json());
+      if (!options.json) print_quality(row);
+    });
+  }
 
   Json document = program_provenance();
   document.update(context_provenance(context));
@@ -152,26 +191,32 @@ void add_bench_command(CLI::App& app) {
       ->excludes(input)
       ->capture_default_str();
   command
-      ->add_option("--parts", options->parts,
-                   "What to time, separated by commas: reading; building trees on disk; processing in memory; drawing.")
+      ->add_option(
+          "--parts", options->parts,
+          "What to time, separated by commas: reading; building trees on disk; processing in memory; drawing; "
+          "quality: points and time that each method takes to 30, 35, 40 and 45 dB and to the picture of brute "
+          "force.")
       ->delimiter(',')
-      ->check(CLI::IsMember({"reading", "building", "processing", "drawing"}))
+      ->check(CLI::IsMember({"reading", "building", "processing", "drawing", "quality"}))
       ->capture_default_str();
   command->add_option("--size", options->size, "Width and height of the picture in pixels.")->capture_default_str();
   command->add_option("--budget", options->budget, "Points a progressive frame fills in.")->capture_default_str();
   command->add_option("--repeat", options->repeats, "Runs of each part that count; one more comes before them.")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--compare", options->compare,
-                      "What an earlier run printed with --json. Says which parts moved beyond the noise: every run now "
-                      "was faster, or every one slower, than all of then.");
+  command->add_option(
+      "--compare", options->compare,
+      "What an earlier run printed with --json. Says which parts moved beyond the noise: every run now "
+      "was faster, or every one slower, than all of then; and where a method now draws another number of "
+      "points to a quality.");
   add_json_flag(*command, options->json);
   command->footer(
       "Reading from a warm cache; building octrees on disk (at most 3 runs) and in memory; the reference renderer; "
       "for\n"
       "each rasterizer brute force and the passes of a progressive frame whose predecessor has drawn half of the "
       "points.\n"
-      "Times are medians.\n\n"
+      "Times are medians. Then time against error, in one table: each method on the oblique view from nothing, held\n"
+      "against the reference, measuring outside the clock (at most 3 runs).\n\n"
       "Example:\n  stipple bench --points 20M --json > old.json\n  stipple bench --points 20M --compare old.json");
   command->callback([options] { run(*options); });
 }

@@ -8,6 +8,8 @@
 
 #include "octree/core/error.h"
 #include "octree/core/output_file.h"
+#include "octree/open/open.h"
+#include "octree/store/open_tree.h"
 #include "render/frame/propose_views.h"
 #include "render/gpu/context.h"
 #include "render/measure/image.h"
@@ -18,6 +20,7 @@
 #include "src/cli/cli.h"
 #include "src/cli/draw_options.h"
 #include "src/json/json.h"
+#include "src/run/loading_run.h"
 #include "src/run/peak_memory.h"
 #include "src/run/provenance.h"
 #include "src/run/view_run.h"
@@ -42,6 +45,7 @@ struct Options {
   std::string stats;
   std::string position_out;
   std::string depth_out;
+  bool while_loading = false;
   DrawOptions draw;
   bool json = false;
 };
@@ -67,16 +71,21 @@ const Named& chosen(const std::vector<Named>& all, const Options& options, const
   return *found;
 }
 
-Camera camera_of(const Options& options, const Dataset& dataset, double aspect) {
+// Null: one is to be proposed.
+std::optional<Camera> camera_asked_for(const Options& options) {
   if (!options.camera.empty()) {
     if (options.time) return camera_at(chosen(read_paths(options.camera), options, "path"), *options.time);
     return chosen(read_cameras(options.camera), options, "view").camera;
   }
-  if (options.eye.empty()) return propose_cameras(dataset.overview(), aspect).front().camera;
-  return {.eye = parse_vector("--eye", options.eye),
-          .target = parse_vector("--target", options.target),
-          .up = parse_vector("--up", options.up),
-          .fov_deg = options.fov_deg};
+  if (options.eye.empty()) return std::nullopt;
+  return Camera{.eye = parse_vector("--eye", options.eye),
+                .target = parse_vector("--target", options.target),
+                .up = parse_vector("--up", options.up),
+                .fov_deg = options.fov_deg};
+}
+
+Camera proposed_camera(const PointSet& points, double aspect) {
+  return propose_cameras(points, aspect).front().camera;
 }
 
 Picture draw_reference(const Dataset& dataset, const View& view, const PointSize& point_size) {
@@ -96,6 +105,22 @@ Picture draw_reference(const Dataset& dataset, const View& view, const PointSize
   return picture;
 }
 
+Json stats_of(const FrameState& state, const SelectionCounts& counts) {
+  return {{"points_drawn", state.points_drawn},
+          {"points_reprojected", state.points_reprojected},
+          {"frames", state.frame},
+          {"converged", state.converged},
+          {"ms", state.milliseconds},
+          {"covered_pixels", state.covered_pixels},
+          {"nodes_visible", counts.nodes_visible},
+          {"nodes_occluded", counts.nodes_occluded},
+          {"pixels_estimated", counts.pixels_estimated},
+          {"clusters_far", counts.clusters_far},
+          {"clusters_near", counts.clusters_near},
+          {"clusters_across", counts.clusters_across},
+          {"bytes_read", counts.bytes_read}};
+}
+
 Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, const View& view,
                      const PointSize& point_size) {
   const BudgetPolicy policy = budget_of(options.draw);
@@ -104,22 +129,75 @@ Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, 
   ProgressiveRenderer renderer(*method, rasterizer_of(options.draw), dataset.points.grid, point_size);
   const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
   const SelectionCounts counts = method->counts();
-  Picture picture{renderer.read(), {}};
-  picture.stats = {{"points_drawn", state.points_drawn},
-                   {"points_reprojected", state.points_reprojected},
-                   {"frames", state.frame},
-                   {"converged", state.converged},
-                   {"ms", state.milliseconds},
-                   {"covered_pixels", state.covered_pixels},
-                   {"nodes_visible", counts.nodes_visible},
-                   {"nodes_occluded", counts.nodes_occluded},
-                   {"pixels_estimated", counts.pixels_estimated},
-                   {"clusters_far", counts.clusters_far},
-                   {"clusters_near", counts.clusters_near},
-                   {"clusters_across", counts.clusters_across},
-                   {"bytes_read", counts.bytes_read}};
+  Picture picture{renderer.read(), stats_of(state, counts)};
   picture.stats.update(context_provenance(context));
   return picture;
+}
+
+// The points of a picture that is drawn while they are read are not known when the camera is: what the header says of
+// them is.
+PointSet stated_corners(const SourceInfo& info) {
+  if (info.stated_bounds.empty())
+    throw UsageError(fmt::format(
+        "--while-loading: {} does not say where its points are before they are read; give --eye or --camera",
+        info.path));
+  PointSet corners;
+  corners.grid = info.grid;
+  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+  for (const glm::dvec3& corner : {info.stated_bounds.min, info.stated_bounds.max}) {
+    const glm::dvec3 cell = glm::clamp((corner - info.grid.offset) / info.grid.scale, -kMost, kMost);
+    corners.points.push_back({glm::ivec3(glm::round(cell)), 0});
+    corners.bounds.extend(corners.points.back().position);
+  }
+  return corners;
+}
+
+Json loading_json(LoadingDrawing& drawing, const FrameState& last, Json frames) {
+  const LoadingDrawing::Times& times = drawing.times();
+  const auto json = [](const std::optional<double>& ms) { return ms ? Json(*ms) : Json(); };
+  return {{"first_points_ms", json(times.first_points_ms)},
+          {"loaded_ms", json(times.loaded_ms)},
+          {"clusters_ms", json(times.clusters_ms)},
+          {"converged_ms", last.converged ? Json(last.milliseconds) : Json()},
+          {"points_loaded", drawing.loading().points_loaded()},
+          {"bytes_uploaded", drawing.loading().bytes_uploaded()},
+          {"color_bytes_uploaded", drawing.loading().color_bytes_uploaded()},
+          {"frames", std::move(frames)}};
+}
+
+// What there is of the cloud when drawing ends: all of it, or what could be read.
+struct LoadedPicture {
+  Picture picture;
+  std::shared_ptr<const Dataset> dataset;
+};
+
+LoadedPicture draw_while_loading(const Options& options, Mode mode, const PointSource& source, const View& view,
+                                 const PointSize& point_size) {
+  const HeadlessContext context;
+  const Grid grid = source.info().grid;
+  BackgroundLoad load(source, choose_color(source.info().schema, options.draw.color));
+  LoadingDrawing drawing(load, mode, method_options_of(options.draw), rasterizer_of(options.draw), grid, point_size,
+                         budget_of(options.draw), view.size);
+  const Until until = parse_until(options.until);
+  Json frames = Json::array();
+  FrameState state;
+  do {
+    state = drawing.draw(view);
+    frames.push_back(
+        {{"ms", state.milliseconds}, {"points_loaded", *state.points_loaded}, {"points_drawn", state.points_drawn}});
+  } while (!ended(until, state));
+  std::shared_ptr<const Dataset> dataset = drawing.loading().whole();
+  if (!dataset) {
+    auto part = std::make_shared<Dataset>();
+    part->info = source.info();
+    part->points.grid = grid;
+    part->colors.attribute = choose_color(part->info.schema, options.draw.color);
+    dataset = std::move(part);
+  }
+  LoadedPicture drawn{{drawing.renderer().read(), stats_of(state, drawing.loading().counts())}, std::move(dataset)};
+  drawn.picture.stats["while_loading"] = loading_json(drawing, state, std::move(frames));
+  drawn.picture.stats.update(context_provenance(context));
+  return drawn;
 }
 
 void write_arrays(const Options& options, const FrameData& frame, const Grid& grid) {
@@ -143,29 +221,33 @@ std::uint32_t budget_in_use(const Options& options, const Dataset& dataset) {
   return streams ? budget_within(limits_of(options.draw), budget) : budget;
 }
 
-void run(const Options& options) {
-  // Check what can be checked before the points are read
-  const std::optional<Mode> mode = mode_named(options.mode);
+// Everything but the camera that can be checked before points are read.
+void check(const Options& options, const std::optional<Mode>& mode) {
   if (!mode && options.mode != kReference)
     throw UsageError(fmt::format("--mode {}: expected reference, {}", options.mode, mode_names()));
-  const glm::ivec2 size = parse_size("--size", options.draw.size);
-  const PointSize point_size = point_size_of(options.draw);
-  const std::uint32_t background = parse_color("--background", options.draw.background);
+  if (options.while_loading && !(mode && draws_while_loading(*mode)))
+    throw UsageError(
+        fmt::format("--while-loading: mode {} draws nothing before all points are there; expected --mode "
+                    "unstructured or hybrid",
+                    options.mode));
+  if (options.while_loading && options.inputs.size() == 1 && is_tree(options.inputs.front()))
+    throw UsageError(
+        fmt::format("--while-loading: {} is an octree, which modes hybrid and hierarchical draw from disk "
+                    "at once; leave the option out",
+                    options.inputs.front()));
   rasterizer_of(options.draw);
   budget_of(options.draw);
-  const MethodOptions method = method_options_of(options.draw);
+  method_options_of(options.draw);
   parse_until(options.until);
+}
 
-  const Dataset dataset =
-      open_dataset(options.inputs, options.draw.color, mode ? needs_of(*mode) : DatasetNeeds{}, method.limits);
-  for (const std::string& warning : dataset.info.warnings) warn(warning);
-  const Camera camera = camera_of(options, dataset, static_cast<double>(size.x) / size.y);
-  const View view = make_view(camera, size, near_plane(dataset.points.grid));
-  Picture picture =
-      mode ? draw_with_gl(options, *mode, dataset, view, point_size) : draw_reference(dataset, view, point_size);
-
+// Settings and results.
+Json stats_of(const Options& options, const Picture& picture, const Dataset& dataset, const View& view) {
+  const MethodOptions method = method_options_of(options.draw);
+  const PointSize point_size = point_size_of(options.draw);
+  const bool reference = options.mode == kReference;
   Json stats{{"mode", options.mode},
-             {"raster", mode ? Json(options.draw.raster) : Json()},
+             {"raster", reference ? Json() : Json(options.draw.raster)},
              {"seed", options.draw.seed},
              {"carry", options.draw.carry},
              {"density", options.draw.density},
@@ -185,19 +267,64 @@ void run(const Options& options) {
   stats["view"] = view_provenance(view);
   stats.update(program_provenance());
   stats["peak_memory_bytes"] = peak_memory();
+  return stats;
+}
 
-  write_png(options.output, compose(picture.frame, background), {{"stipple", text_of(stats)}});
+void print_summary(const Options& options, const Json& stats) {
+  fmt::print("{}: {} of {} points drawn in {} frames, {:.1f} ms; {} pixels covered{}\n", options.output,
+             with_thousands(stats["points_drawn"].get<std::uint64_t>()),
+             with_thousands(stats["points_total"].get<std::uint64_t>()), stats["frames"].get<std::uint64_t>(),
+             stats["ms"].get<double>(), with_thousands(stats["covered_pixels"].get<std::uint64_t>()),
+             stats["converged"].get<bool>() ? ", converged" : "");
+  if (!options.while_loading) return;
+  const Json& loading = stats["while_loading"];
+  const auto ms = [&](const char* key) {
+    return loading[key].is_null() ? std::string("not") : fmt::format("after {:.0f} ms", loading[key].get<double>());
+  };
+  fmt::print("  first points seen {}, all loaded {}\n", ms("first_points_ms"), ms("loaded_ms"));
+}
+
+void write_results(const Options& options, const Picture& picture, const Dataset& dataset, const View& view) {
+  const Json stats = stats_of(options, picture, dataset, view);
+  write_png(options.output, compose(picture.frame, parse_color("--background", options.draw.background)),
+            {{"stipple", text_of(stats)}});
   if (!options.stats.empty()) write_file(options.stats, text_of(stats, 2) + "\n");
   write_arrays(options, picture.frame, dataset.points.grid);
-  if (options.json) {
+  if (options.json)
     print_json(stats);
-    return;
-  }
-  fmt::print("{}: {} of {} points drawn in {} frames, {:.1f} ms; {} pixels covered{}\n", options.output,
-             with_thousands(stats["points_drawn"].get<std::uint64_t>()), with_thousands(dataset.info.point_count),
-             stats["frames"].get<std::uint64_t>(), stats["ms"].get<double>(),
-             with_thousands(stats["covered_pixels"].get<std::uint64_t>()),
-             stats["converged"].get<bool>() ? ", converged" : "");
+  else
+    print_summary(options, stats);
+}
+
+void run_while_loading(const Options& options, Mode mode, const glm::ivec2& size, const PointSize& point_size) {
+  const auto source = open_source(options.inputs);
+  const SourceInfo& info = source->info();
+  for (const std::string& warning : info.warnings) warn(warning);
+  check_memory(info, mode == Mode::hybrid, limits_of(options.draw));
+  const auto asked = camera_asked_for(options);
+  const Camera camera = asked ? *asked : proposed_camera(stated_corners(info), static_cast<double>(size.x) / size.y);
+  const View view = make_view(camera, size, near_plane(info.grid));
+  const LoadedPicture drawn = draw_while_loading(options, mode, *source, view, point_size);
+  write_results(options, drawn.picture, *drawn.dataset, view);
+}
+
+void run(const Options& options) {
+  const std::optional<Mode> mode = mode_named(options.mode);
+  const glm::ivec2 size = parse_size("--size", options.draw.size);
+  const PointSize point_size = point_size_of(options.draw);
+  parse_color("--background", options.draw.background);
+  check(options, mode);
+  if (options.while_loading) return run_while_loading(options, *mode, size, point_size);
+
+  const Dataset dataset = open_dataset(options.inputs, options.draw.color, mode ? needs_of(*mode) : DatasetNeeds{},
+                                       limits_of(options.draw));
+  for (const std::string& warning : dataset.info.warnings) warn(warning);
+  const auto asked = camera_asked_for(options);
+  const Camera camera = asked ? *asked : proposed_camera(dataset.overview(), static_cast<double>(size.x) / size.y);
+  const View view = make_view(camera, size, near_plane(dataset.points.grid));
+  const Picture picture =
+      mode ? draw_with_gl(options, *mode, dataset, view, point_size) : draw_reference(dataset, view, point_size);
+  write_results(options, picture, dataset, view);
 }
 
 }  // namespace
@@ -244,6 +371,12 @@ void add_render_command(CLI::App& app) {
                    "When to stop: converged (nothing is left to draw), frame:N (after N frames) or ms:T (after T "
                    "milliseconds of drawing), whatever comes first.")
       ->capture_default_str();
+  command->add_flag(
+      "--while-loading", options->while_loading,
+      "Draw from the first points on while the file is being read, as modes unstructured (as the papers do, --carry "
+      "vertex or index) and hybrid (like unstructured, until its clusters are there) can. Times then count from the "
+      "beginning of the reading. Colours of intensity, height and the like stretch over the first points read until "
+      "all are; converged, the picture is that of all points, exactly. Not for octrees.");
   command->add_option("--stats", options->stats, "JSON file for what was drawn, how long it took, and all settings.");
   command->add_option("--position-out", options->position_out,
                       "NumPy file for the world coordinates of every pixel (height x width x 3 doubles, NaN where "
@@ -253,7 +386,8 @@ void add_render_command(CLI::App& app) {
                       "where no point is).");
   add_json_flag(*command, options->json);
   command->footer(
-      "Without --camera or --eye the cloud is seen obliquely and whole.\n\n"
+      "Without --camera or --eye the cloud is seen obliquely and whole; with --while-loading, the box of which its "
+      "header speaks.\n\n"
       "Example:\n  stipple render scan.las -o scan.png --mode hierarchical --size 1920x1080 --until ms:500");
   command->callback([options] { run(*options); });
 }

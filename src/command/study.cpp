@@ -62,7 +62,7 @@ std::vector<Regime> regimes_of(const std::vector<std::string>& names) {
   std::vector<Regime> regimes;
   for (const std::string& name : names) {
     const auto regime = regime_named(name);
-    if (!regime) throw UsageError(fmt::format("--regime {}: expected cold, jump, path or stop", name));
+    if (!regime) throw UsageError(fmt::format("--regime {}: expected cold, jump, path, stop or loading", name));
     if (std::ranges::find(regimes, *regime) == regimes.end()) regimes.push_back(*regime);
   }
   return regimes;
@@ -96,6 +96,11 @@ StudySettings settings_of(const Options& options) {
   if (!options.path.empty()) settings.paths = read_paths(options.path);
   if (settings.cameras.size() == 1 && std::ranges::find(settings.regimes, Regime::jump) != settings.regimes.end())
     throw UsageError(fmt::format("--regime jump: {} holds one view; a jump takes two", options.views));
+  for (const Regime regime : settings.regimes)
+    if (modes_under(regime, settings.modes).empty())
+      throw UsageError(
+          "--regime loading: of the modes, none that was chosen draws while points are read; unstructured "
+          "and hybrid do");
   settings.path_frames = options.path_frames;
   settings.size = parse_size("--size", options.draw.size);
   settings.raster = rasterizer_of(options.draw);
@@ -205,10 +210,13 @@ void add_study_command(CLI::App& app) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command
-      ->add_option("--regime", options->regimes,
-                   "What the camera does, separated by commas: cold (a still view, from nothing), jump (a still view, "
-                   "after the view before it has converged; the last one for the first), path (a new place each "
-                   "frame), stop (a still view where a path ends).")
+      ->add_option(
+          "--regime", options->regimes,
+          "What the camera does, separated by commas: cold (a still view, from nothing), jump (a still view, "
+          "after the view before it has converged; the last one for the first), path (a new place each "
+          "frame), stop (a still view where a path ends), loading (a still view while the points are read once more, "
+          "for modes unstructured and hybrid, from when reading begins; with --clock points they come from "
+          "memory, as many a frame as it may draw).")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();

@@ -11,12 +11,12 @@ namespace {
 // Where a frame-rate target starts from.
 constexpr std::uint32_t kFirstBudget = 100'000;
 
-bool over(const Until& until, const FrameState& state) {
+}  // namespace
+
+bool ended(const Until& until, const FrameState& state) {
   return state.converged || (until.frames && state.frame >= *until.frames) ||
          (until.milliseconds && state.milliseconds >= *until.milliseconds);
 }
-
-}  // namespace
 
 std::uint32_t largest_budget(const BudgetPolicy& policy) {
   return policy.frames_per_second ? BudgetController::Limits{}.most : policy.points;
@@ -29,11 +29,12 @@ TimedDrawing::TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& po
   renderer.warm_up(size);
 }
 
-const FrameState& TimedDrawing::draw(const View& view) {
+const FrameState& TimedDrawing::draw(const View& view, const std::function<void()>& before) {
   using Clock = std::chrono::steady_clock;
   ++state_.frame;
   state_.budget = controller_ ? controller_->budget() : policy_.points;
   const auto start = Clock::now();
+  if (before) before();
   const FrameReport report = renderer_.draw(view, state_.budget);
   glFinish();
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -52,7 +53,7 @@ FrameState draw_until(TimedDrawing& drawing, const View& view, const Until& unti
   while (true) {
     const FrameState& state = drawing.draw(view);
     if (observe) observe(state);
-    if (over(until, state)) return state;
+    if (ended(until, state)) return state;
   }
 }
 

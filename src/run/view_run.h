@@ -32,6 +32,7 @@ struct FrameState {
   std::uint64_t covered_pixels = 0;
   std::uint32_t budget = 0;  // of this frame
   bool converged = false;
+  std::optional<std::uint64_t> points_loaded{};  // of a cloud that is being read
 };
 
 // A renderer that draws whatever view comes next, each frame timed.
@@ -40,7 +41,10 @@ class TimedDrawing {
   // `renderer` must outlive this. It is warmed up for frames of `size` first, outside the clock.
   TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& policy, const glm::ivec2& size);
 
-  const FrameState& draw(const View& view);
+  // `before`, where there is one, goes before the frame and is timed with it.
+  const FrameState& draw(const View& view, const std::function<void()>& before = {});
+  // Time that passed otherwise.
+  void pass(double milliseconds) { state_.milliseconds += milliseconds; }
   // The next frame is the first: sums begin anew. What is drawn stays, and so does what a frame-rate target has learnt.
   void start_again() { state_ = {}; }
 
@@ -50,6 +54,9 @@ class TimedDrawing {
   std::optional<BudgetController> controller_;
   FrameState state_;
 };
+
+// Whether the frame with this state was the last.
+bool ended(const Until& until, const FrameState& state);
 
 // Draws until `until`; at least one frame. `observe` is called after each frame, outside the clock, and may read the
 // renderer.

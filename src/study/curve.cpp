@@ -39,14 +39,15 @@ std::string csv_line(const Curve& curve, const CurvePoint& point, const FrameWor
   const FrameRates& rates = point.rates;
   return fmt::format(
       "{},{},{},{},{},{},{},{},{},{},{},1,{},{},{},{:.9g},{:.6f},{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6g},"
-      "{:.6g},{:.9g},{:.9g},{:.9g},{},{},{},{}\n",
+      "{:.6g},{:.9g},{:.9g},{:.9g},{},{},{},{},{}\n",
       csv_field(curve.dataset), curve.regime, csv_field(curve.view), curve.mode, curve.raster, curve.repeat,
       state.frame, state.budget, state.points_drawn, state.points_reprojected,
       curve.timed ? fmt::format("{:.3f}", state.milliseconds) : "", work.reprojected, work.streamed,
       state.covered_pixels, point.mse, psnr_db(point.mse), psnr_db(point.covered_mse), csv_field(point.ssim),
       csv_field(point.flip), rates.hole, rates.see_through, rates.ghost, rates.wrong_point, rates.depth_error_mean,
       rates.depth_error_p95, point.parts.rounding, point.parts.selection, point.parts.carry, csv_field(point.reuse),
-      csv_field(point.flicker), point.identical ? 1 : 0, state.converged ? 1 : 0);
+      csv_field(point.flicker), state.points_loaded ? std::to_string(*state.points_loaded) : "",
+      point.identical ? 1 : 0, state.converged ? 1 : 0);
 }
 
 }  // namespace
@@ -57,6 +58,11 @@ std::optional<Reached> reaches(const Curve& curve, double db) {
 
 std::optional<Reached> reaches_identical(const Curve& curve) {
   return first_that(curve, [](const CurvePoint& point) { return point.identical; });
+}
+
+std::optional<Reached> reaches_all_loaded(const Curve& curve, std::uint64_t points_total) {
+  return first_that(curve,
+                    [points_total](const CurvePoint& point) { return point.state.points_loaded == points_total; });
 }
 
 bool QualityMarks::passes(double db) {
@@ -70,7 +76,7 @@ std::string curves_csv(std::span<const Curve> curves) {
   std::string csv =
       "dataset,regime,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,V,R,S,covered_pixels,mse,"
       "psnr_db,psnr_covered_db,ssim,flip,hole,see_through,ghost,wrong_point,depth_error_mean,depth_error_p95,"
-      "mse_rounding,mse_selection,mse_carry,reuse,flicker,identical,converged\n";
+      "mse_rounding,mse_selection,mse_carry,reuse,flicker,points_loaded,identical,converged\n";
   for (const Curve& curve : curves) {
     FrameState before;
     for (const CurvePoint& point : curve.points) {

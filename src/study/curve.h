@@ -58,6 +58,9 @@ std::optional<Reached> reaches(const Curve& curve, double psnr_db);
 // The first frame identical to brute force.
 std::optional<Reached> reaches_identical(const Curve& curve);
 
+// The first frame at whose beginning all points were loaded, of a curve drawn while they were.
+std::optional<Reached> reaches_all_loaded(const Curve& curve, std::uint64_t points_total);
+
 // The decibels a summary asks for.
 inline constexpr double kQualities[] = {30.0, 35.0, 40.0, 45.0};
 

@@ -17,6 +17,7 @@ Json point_json(const CurvePoint& point) {
           {"covered_pixels", state.covered_pixels},
           {"budget", state.budget},
           {"converged", state.converged},
+          {"points_loaded", state.points_loaded ? Json(*state.points_loaded) : Json()},
           {"mse", point.mse},
           {"covered_mse", point.covered_mse},
           {"ssim", json_of(point.ssim)},
@@ -45,6 +46,8 @@ CurvePoint point_of(const Json& json) {
                  .covered_pixels = json.at("covered_pixels"),
                  .budget = json.at("budget"),
                  .converged = json.at("converged")};
+  if (const Json& loaded = json.at("points_loaded"); !loaded.is_null())
+    point.state.points_loaded = loaded.get<std::uint64_t>();
   point.mse = json.at("mse");
   point.covered_mse = json.at("covered_mse");
   point.ssim = optional_of(json.at("ssim"));

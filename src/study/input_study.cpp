@@ -11,6 +11,7 @@
 #include "src/study/curve_drawing.h"
 #include "src/study/curve_json.h"
 #include "src/study/frame_keeper.h"
+#include "src/study/loading_curve.h"
 #include "src/study/summary.h"
 
 namespace stipple {
@@ -48,9 +49,10 @@ std::vector<Regime> chosen(const std::vector<Regime>& regimes, bool views) {
 
 }  // namespace
 
-InputStudy::InputStudy(const StudySettings& settings, std::string name, const Dataset& dataset, Ledger& ledger,
-                       StudyProgress& progress, Findings& findings)
+InputStudy::InputStudy(const StudySettings& settings, std::string input, std::string name, const Dataset& dataset,
+                       Ledger& ledger, StudyProgress& progress, Findings& findings)
     : settings_(settings),
+      input_(std::move(input)),
       name_(std::move(name)),
       dataset_(dataset),
       ledger_(ledger),
@@ -106,7 +108,7 @@ std::string InputStudy::folder(const std::string& kind, const std::string& name)
 
 bool InputStudy::finished(const Route& route) const {
   for (const Regime regime : route.regimes)
-    for (const Mode mode : settings_.modes)
+    for (const Mode mode : modes_under(regime, settings_.modes))
       for (int repeat = 0; repeat < settings_.repeats; ++repeat)
         if (!ledger_.find(key(route, regime, mode, repeat))) return false;
   return ledger_.find(folder(route.is_path() ? "path" : "view", route.name)) != nullptr;
@@ -124,7 +126,7 @@ void InputStudy::study(const Route& route) {
   }
   (route.is_path() ? findings_.paths : findings_.views).push_back(description);
   for (const Regime regime : route.regimes)
-    for (const Mode mode : settings_.modes) study_mode(route, regime, mode, truths);
+    for (const Mode mode : modes_under(regime, settings_.modes)) study_mode(route, regime, mode, truths);
 }
 
 // The reference pictures go to files here.
@@ -231,7 +233,7 @@ std::string InputStudy::provenance(const Route& route, const Curve& curve) const
 }
 
 Curve InputStudy::draw(const Route& route, Regime regime, Mode mode, int repeat, const std::vector<Truth>& truths) {
-  if (settings_.clock == StudyClock::points && dataset_.tree && !needs_of(mode).points)
+  if (settings_.clock == StudyClock::points && dataset_.tree && regime != Regime::loading && !needs_of(mode).points)
     throw Error(
         "what it draws of an octree on disk in a frame depends on how fast the disk is, so that it cannot be counted "
         "by points alone; give the points as a file, or leave out --clock points");
@@ -245,8 +247,11 @@ Curve InputStudy::draw(const Route& route, Regime regime, Mode mode, int repeat,
     keeper.emplace(settings_.folder, fs::path("frames") / name_ / curve.regime / route.name / curve.mode,
                    provenance(route, curve), regime == Regime::path ? every : 0);
   }
-  CurveDrawing drawing(settings_, dataset_, mode, progress_);
-  curve.points = drawing.run(regime, route, truths, keeper ? &*keeper : nullptr);
+  FrameKeeper* const keeping = keeper ? &*keeper : nullptr;
+  curve.points =
+      regime == Regime::loading
+          ? draw_while_loading(settings_, input_, dataset_, mode, progress_, route.views.back(), truths.back(), keeping)
+          : CurveDrawing(settings_, dataset_, mode, progress_).run(regime, route, truths, keeping);
   if (keeper) curve.kept = keeper->kept();
   return curve;
 }

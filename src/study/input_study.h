@@ -23,8 +23,8 @@ struct Findings {
 
 class InputStudy {
  public:
-  // All must outlive it. `name` is the cloud's in folders and tables.
-  InputStudy(const StudySettings& settings, std::string name, const Dataset& dataset, Ledger& ledger,
+  // All must outlive it. `dataset` was opened from `input`; `name` is the cloud's in folders and tables.
+  InputStudy(const StudySettings& settings, std::string input, std::string name, const Dataset& dataset, Ledger& ledger,
              StudyProgress& progress, Findings& findings);
 
   // Adds to the findings. Throws Interrupted; what methods throw otherwise becomes a failure.
@@ -45,6 +45,7 @@ class InputStudy {
   std::string provenance(const Route& route, const Curve& curve) const;
 
   const StudySettings& settings_;
+  std::string input_;
   std::string name_;
   const Dataset& dataset_;
   Ledger& ledger_;

@@ -1,11 +1,15 @@
 #include "src/study/regime.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
+
+#include "render/method/while_loading.h"
 
 namespace stipple {
 namespace {
 
-constexpr std::array kRegimes{Regime::cold, Regime::jump, Regime::path, Regime::stop};
+constexpr std::array kRegimes{Regime::cold, Regime::jump, Regime::path, Regime::stop, Regime::loading};
 
 }  // namespace
 
@@ -23,6 +27,8 @@ std::string_view name_of(Regime regime) {
       return "path";
     case Regime::stop:
       return "stop";
+    case Regime::loading:
+      return "loading";
   }
   return "";
 }
@@ -31,6 +37,13 @@ std::optional<Regime> regime_named(std::string_view name) {
   for (const Regime regime : kRegimes)
     if (name_of(regime) == name) return regime;
   return std::nullopt;
+}
+
+std::vector<Mode> modes_under(Regime regime, std::span<const Mode> modes) {
+  std::vector<Mode> able;
+  std::ranges::copy_if(modes, std::back_inserter(able),
+                       [regime](Mode mode) { return regime != Regime::loading || draws_while_loading(mode); });
+  return able;
 }
 
 }  // namespace stipple

@@ -71,7 +71,9 @@ Json settings_json(const StudySettings& settings) {
           {"flip", settings.flip_every_frame ? "every frame"
                                              : "along paths every frame, else the first, the first at 30, 35, 40, 45 "
                                                "dB, the last"},
-          {"time_is", "drawing alone, each frame awaited; loading, upload, shader compiling and metrics excluded"},
+          {"time_is",
+           "drawing alone, each frame awaited; loading, upload, shader compiling and metrics excluded. Under regime "
+           "loading: since reading began, all of it but metrics and what was compiled before"},
           {"warm_up", "every pass has run once on a single point, outside the clock"}};
 }
 
@@ -91,9 +93,10 @@ Json ledger_json(const StudySettings& settings) {
 std::size_t curves_of_an_input(const StudySettings& settings) {
   const std::size_t views = settings.cameras.empty() ? 3 : settings.cameras.size();
   const std::size_t paths = settings.paths.empty() ? 1 : settings.paths.size();
-  std::size_t routes = 0;
-  for (const Regime regime : settings.regimes) routes += of_views(regime) ? views : paths;
-  return routes * settings.modes.size() * static_cast<std::size_t>(settings.repeats);
+  std::size_t curves = 0;
+  for (const Regime regime : settings.regimes)
+    curves += (of_views(regime) ? views : paths) * modes_under(regime, settings.modes).size();
+  return curves * static_cast<std::size_t>(settings.repeats);
 }
 
 // Reads and studies one input, and says what it was.
@@ -113,7 +116,7 @@ Json study_input(const StudySettings& settings, const std::string& input, const 
   }
   json["load_ms"] = 1e3 * dataset.load_seconds;
   json["build_ms"] = 1e3 * dataset.build_seconds;
-  InputStudy(settings, name, dataset, ledger, progress, findings).run();
+  InputStudy(settings, input, name, dataset, ledger, progress, findings).run();
   return json;
 }
 

@@ -132,6 +132,8 @@ Json summary_json(std::span<const Curve> repeats, double target_ms, std::uint64_
   json["converged"] = last.state.converged;
   json["identical_to_brute_force"] = last.identical;
   json["reached"] = reached;
+  json["loaded"] =
+      reached_json(repeats, [points_total](const Curve& curve) { return reaches_all_loaded(curve, points_total); });
   json["first"] = quality_json([&](const Measure& measure) { return measure(first.points.front()); });
   json["mean"] = quality_json([&](const Measure& measure) { return mean_of(first, measure); });
   return json;

@@ -1,8 +1,10 @@
 // `stipple bench` from end to end.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "render/method/method.h"
 #include "tests/command/run_stipple.h"
 
 namespace stipple::test {
@@ -18,13 +20,19 @@ std::string write_text(const ScratchFolder& folder, const std::string& text) {
 constexpr std::size_t kParts =
     3 + 3 + 2 + 2 * 6;  // reading, building, processing; brute force and a frame's five for each rasterizer
 
+// Without the qualities that methods reach.
+std::size_t timed_parts(const Json& document) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(document.at("parts"), [](const Json& part) { return part.at("unit") != "points drawn"; }));
+}
+
 TEST(BenchCommand, TimesEveryPartOfATinyInput) {
   const ScratchFolder folder;
   const Outcome outcome =
       run_stipple(folder, "bench " + city_file(folder, 3'000) + " --size 64x36 --budget 500 --repeat 2 --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Json document = Json::parse(outcome.out);
-  ASSERT_EQ(document.at("parts").size(), kParts);
+  ASSERT_EQ(timed_parts(document), kParts);
   std::string names;
   for (const Json& part : document.at("parts")) {
     names += part.at("part").get<std::string>() + "\n";
@@ -65,6 +73,36 @@ TEST(BenchCommand, ComparesWithAnEarlierRun) {
   EXPECT_TRUE(comparison.at("differences").empty()) << comparison.dump();
 }
 
+TEST(BenchCommand, TellsWhatEachMethodTakesToAQuality) {
+  const ScratchFolder folder;
+  const std::string options =
+      "bench " + city_file(folder, 3'000) + " --parts quality --size 64x36 --budget 500 --repeat 2";
+  const Outcome first = run_stipple(folder, options + " --json");
+  ASSERT_EQ(first.code, 0) << first.err;
+  Json old = Json::parse(first.out);
+  std::size_t identical = 0;
+  for (Json& part : old.at("parts")) {
+    EXPECT_EQ(part.at("unit"), "points drawn");
+    EXPECT_EQ(part.at("runs_ms").size(), 2u);
+    EXPECT_GT(part.at("amount").get<double>(), 0.0);
+    if (part.at("part") == "brute-force to identical") {
+      EXPECT_EQ(part.at("amount"), 3'000);
+    }
+    if (contains(part.at("part").get<std::string>(), "to identical")) ++identical;
+    if (part.at("part") == "hybrid to identical") part["amount"] = 17.0;
+  }
+  EXPECT_GE(identical, 5u);  // all methods but lod
+  const Outcome second = run_stipple(folder, options + " --json --compare " + write_text(folder, old.dump()));
+  ASSERT_EQ(second.code, 0) << second.err;
+  const Json moved = Json::parse(second.out).at("comparison").at("other_points");
+  ASSERT_EQ(moved.size(), 1u) << moved.dump();
+  EXPECT_EQ(moved[0].at("part"), "hybrid to identical");
+  EXPECT_EQ(moved[0].at("old_points"), 17.0);
+  const Outcome table = run_stipple(folder, options);
+  EXPECT_TRUE(contains(table.out, "Time against error"));
+  for (const Mode mode : all_modes()) EXPECT_TRUE(contains(table.out, fmt::format("\n{} ", name_of(mode))));
+}
+
 TEST(BenchCommand, RefusesToCompareWithAnythingElse) {
   const ScratchFolder folder;
   const std::string city = city_file(folder, 100);
@@ -82,7 +120,7 @@ TEST(BenchCommand, AnEmptyFileHasParts) {
   const std::string file = folder.write("empty.las", LasFile{.points = 0}.bytes());
   const Outcome outcome = run_stipple(folder, "bench " + file + " --size 16x9 --repeat 1 --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(Json::parse(outcome.out).at("parts").size(), kParts);
+  EXPECT_EQ(timed_parts(Json::parse(outcome.out)), kParts);
 }
 
 TEST(BenchCommand, AGeneratedCityIsGoneAfterwards) {

@@ -98,6 +98,46 @@ TEST_F(RenderCommand, EveryModeAndRasterEndsWithTheSamePictureAndFullStats) {
   }
 }
 
+TEST_F(RenderCommand, DrawsWhileLoadingAndEndsLikeBruteForce) {
+  for (const std::string color : {"rgb", "height"}) {
+    const std::string common = " --color " + color + " --stats " + path("stats.json");
+    // The camera that is proposed from the header, for both
+    picture("first.png", "--mode unstructured --while-loading" + common);
+    const Json view = json_file(path("stats.json")).at("view");
+    Json camera{{"eye", view.at("eye")}, {"up", view.at("up")}, {"fov_deg", view.at("fov_deg")}};
+    for (int axis = 0; axis < 3; ++axis)
+      camera["target"][axis] = view.at("eye")[axis].get<double>() + view.at("forward")[axis].get<double>();
+    const std::string same_view = " --camera " + write("camera.json", camera.dump());
+    const Image all = picture("all.png", "--mode brute-force" + common + same_view);
+    const Json hash = json_file(path("stats.json")).at("points_hash");
+    for (const std::string mode : {"unstructured", "unstructured --carry index", "hybrid"}) {
+      const Image drawn = picture("drawn.png", "--budget 3k --while-loading --mode " + mode + common + same_view);
+      EXPECT_EQ(drawn.rgb, all.rgb) << mode << " " << color;
+      const Json stats = json_file(path("stats.json"));
+      const Json& loading = stats.at("while_loading");
+      EXPECT_EQ(stats.at("points_hash"), hash);
+      EXPECT_EQ(loading.at("points_loaded"), kPoints);
+      EXPECT_LE(loading.at("first_points_ms"), loading.at("loaded_ms"));
+      EXPECT_LE(loading.at("loaded_ms"), loading.at("converged_ms"));
+      EXPECT_EQ(loading.at("frames").size(), stats.at("frames"));
+      EXPECT_EQ(loading.at("frames").back().at("points_loaded"), kPoints);
+      EXPECT_GE(loading.at("bytes_uploaded"), 16 * kPoints);
+    }
+  }
+}
+
+TEST_F(RenderCommand, DrawingWhileLoadingNamesWhatItCannotDo) {
+  for (const char* mode : {"reference", "brute-force", "hierarchical", "lod", "subsample"})
+    expect_wrong_usage(std::string("--while-loading --mode ") + mode, "--while-loading");
+  auto bytes = LasFile{.points = 1'000}.bytes();
+  bytes.resize(9'000);
+  const std::string cut = folder_.write("cut.las", bytes);
+  const Outcome outcome = run_stipple(folder_, "render " + cut + " --while-loading -o " + path("out.png"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(contains(outcome.err, "cut.las")) << outcome.err;
+  EXPECT_FALSE(fs::exists(path("out.png")));
+}
+
 TEST_F(RenderCommand, CompareSaysInfForTwoConvergedModes) {
   picture("a.png", "--mode hierarchical --budget 5k");
   picture("b.png", "--mode unstructured --budget 7k --seed 99");

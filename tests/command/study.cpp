@@ -124,8 +124,8 @@ class StudyRegimes : public StudyCommand {
                  {"time": 2, "eye": [565000, 5934000, 150], "target": [565300, 5934300, 0], "fov_deg": 50}]}]})";
   }
   Outcome regimes(const std::string& output, const std::string& more = "") const {
-    return run_stipple(folder_, "study --size 160x90 --budget 4k --regime cold,jump,path,stop --clock points " + city_ +
-                                    " --views " + path("cameras.json") + " --path " + path("cameras.json") +
+    return run_stipple(folder_, "study --size 160x90 --budget 4k --regime cold,jump,path,stop,loading --clock points " +
+                                    city_ + " --views " + path("cameras.json") + " --path " + path("cameras.json") +
                                     " --path-frames 6 -o " + path(output) + " " + more);
   }
 
@@ -169,10 +169,47 @@ TEST_F(StudyRegimes, EachErrorHasItsCause) {
     ++frames[curve];
     carry[curve] += std::stod(row.at("mse_carry"));
   }
-  EXPECT_EQ(frames.size(), 4u * 6u);
+  EXPECT_EQ(frames.size(), 4u * 6u + 2u);
   for (const char* mode : {"hierarchical", "unstructured", "hybrid"}) {
     EXPECT_EQ(frames[std::string("path ") + mode], 6);
     EXPECT_GT(carry[std::string("path ") + mode], 0.0) << mode;
+  }
+}
+
+TEST_F(StudyRegimes, WhileLoadingThePictureFillsWithWhatIsRead) {
+  ASSERT_EQ(regimes("out").code, 0);
+  std::map<std::string, Row> last;
+  for (const Row& row : rows_of(path("out/curves.csv"))) {
+    EXPECT_EQ(row.at("points_loaded").empty(), row.at("regime") != "loading");
+    if (row.at("regime") != "loading") continue;
+    EXPECT_EQ(std::stoi(row.at("points_loaded")), std::min(20'000, 4'000 * std::stoi(row.at("frame"))));
+    last[row.at("mode") + " " + row.at("view")] = row;
+  }
+  EXPECT_EQ(last.size(), 2u * 2u);  // unstructured and hybrid
+  for (const auto& [curve, row] : last) EXPECT_EQ(row.at("identical"), "1") << curve;
+  for (const Json& row : json_file(path("out/study.json")).at("summary")) {
+    EXPECT_EQ(row.at("loaded").is_null(), row.at("regime") != "loading");
+    if (row.at("regime") == "loading") {
+      EXPECT_EQ(row.at("loaded").at("points"), 20'000) << row.dump();
+    }
+  }
+  EXPECT_EQ(regimes("other", "--modes lod,hierarchical").code, 2);
+}
+
+// By the wall clock the file is read once more.
+TEST_F(StudyRegimes, WhileLoadingByTheWallClock) {
+  ASSERT_EQ(run_stipple(folder_, "study --size 160x90 --budget 4k --regime loading " + city_ + " --views " +
+                                     path("cameras.json") + " -o " + path("out"))
+                .code,
+            0);
+  double before = 0.0;
+  for (const Row& row : rows_of(path("out/curves.csv"))) {
+    if (row.at("frame") == "1") before = 0.0;
+    EXPECT_GT(std::stod(row.at("ms")), before);
+    before = std::stod(row.at("ms"));
+    if (row.at("converged") == "1") {
+      EXPECT_EQ(row.at("identical"), "1");
+    }
   }
 }
 
@@ -213,7 +250,7 @@ TEST_F(StudyRegimes, ResumesWhereItWasInterrupted) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(text_of(path("out/curves.csv")), curves);
   EXPECT_FALSE(contains(outcome.err, "cold, corner: brute-force"));
-  EXPECT_TRUE(contains(outcome.err, "[36/36]"));
+  EXPECT_TRUE(contains(outcome.err, "[40/40]"));
   const Outcome other = regimes("out", "--resume --seed 5");
   EXPECT_EQ(other.code, 1);
   EXPECT_TRUE(contains(other.err, "seed is 5, was 0"));

@@ -217,6 +217,7 @@ TEST(CurvesCsv, HasALineAFrameBelowItsHeader) {
   curve.points[1].state.converged = true;
   curve.points[1].state.covered_pixels = 9;
   curve.points[1].state.points_reprojected = 8;
+  curve.points[1].state.points_loaded = 70;
   curve.points[0].covered_mse = 6502.5;
   curve.points[0].ssim = 0.75;
   curve.points[0].flip = 0.125;
@@ -233,13 +234,13 @@ TEST(CurvesCsv, HasALineAFrameBelowItsHeader) {
   const std::string header =
       "dataset,regime,view,mode,raster,repeat,frame,budget,points_drawn,points_reprojected,ms,V,R,S,covered_pixels,mse,"
       "psnr_db,psnr_covered_db,ssim,flip,hole,see_through,ghost,wrong_point,depth_error_mean,depth_error_p95,"
-      "mse_rounding,mse_selection,mse_carry,reuse,flicker,identical,converged\n";
+      "mse_rounding,mse_selection,mse_carry,reuse,flicker,points_loaded,identical,converged\n";
   EXPECT_EQ(curves_csv({&curve, 1}),
             header +
                 "city,cold,low,unstructured,compute,0,1,100,100,0,10.000,1,0,100,0,650.25,20.000000,10.000000,0.750000,"
-                "0.125000,0.500000,0.250000,0.062500,0.031250,0.001,0.002,0.25,600,50,,,0,0\n"
+                "0.125000,0.500000,0.250000,0.062500,0.031250,0.001,0.002,0.25,600,50,,,,0,0\n"
                 "city,cold,low,unstructured,compute,0,2,100,200,8,20.000,1,8,100,9,0,inf,inf,,,0.000000,0.000000,"
-                "0.000000,0.000000,0,0,0,0,0,0.500000,1.500000,1,1\n");
+                "0.000000,0.000000,0,0,0,0,0,0.500000,1.500000,70,1,1\n");
 }
 
 TEST(CurvesCsv, HasNoTimeOfACurveThatWasNotTimed) {

@@ -21,6 +21,7 @@ const kRegimes = {
   jump: 'after a jump',
   path: 'along the path',
   stop: 'after stopping',
+  loading: 'while loading',
 };
 const kQualities = [
   ['30_db', '30 dB'], ['35_db', '35 dB'], ['40_db', '40 dB'], ['45_db', '45 dB'], ['identical', 'identical'],

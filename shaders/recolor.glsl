@@ -1,0 +1,38 @@
+// S19's attribute streaming: new colours, 4 bytes a point in the order of ids, reach points that stay where they are; in a
+// buffer, or (PICTURE) in the pixels of a finished frame.
+layout(std430, binding = 0) readonly buffer Colors { uint colors[]; };
+layout(location = 0) uniform uint first;  // id whose colour is colors[0]
+layout(location = 1) uniform uint count;  // colours
+
+#ifdef PICTURE
+
+layout(local_size_x = 16, local_size_y = 8) in;
+layout(binding = 0, rgba32i) uniform iimage2D points;
+layout(binding = 1) uniform usampler2D ids;
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, textureSize(ids, 0)))) return;
+  // Ids below the first wrap around to beyond the last; kNoPoint always is
+  uint at = texelFetch(ids, pixel, 0).x - first;
+  if (at >= count) return;
+  imageStore(points, pixel, ivec4(imageLoad(points, pixel).xyz, int(colors[at])));
+}
+
+#else
+
+layout(local_size_x = 128) in;
+#include "invocation.glsl"
+
+layout(std430, binding = 1) buffer Points { ivec4 points[]; };
+layout(std430, binding = 2) readonly buffer Ids { uint ids[]; };
+layout(location = 2) uniform uint size;  // points
+
+void main() {
+  uint i = invocation_index();
+  if (i >= size) return;
+  uint at = ids[i] - first;
+  if (at < count) points[i].w = int(colors[at]);
+}
+
+#endif
