@@ -1,4 +1,5 @@
-// The viewer: a window, a cloud, a camera, and the loop that ties them.
+// The viewer: a window, a cloud, a camera, and the loop that ties them. viewer.cpp is that loop and what loading
+// brings; viewer_events.cpp, viewer_commands.cpp, viewer_frames.cpp and viewer_pictures.cpp are what their names say.
 #pragma once
 
 #include <array>
@@ -81,6 +82,9 @@ class Viewer {
   const std::string& note() const { return note_; }
 
  private:
+  // Panels need a frame to learn of an event and one to lay themselves out.
+  static constexpr int kFramesAfterEvent = 3;
+
   void take_finished();
   void take(const finished::Beginning& beginning);
   void take(const finished::Cloud& cloud);

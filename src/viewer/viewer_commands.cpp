@@ -1,0 +1,144 @@
+// What the keys do.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "octree/core/error.h"
+#include "octree/core/output_file.h"
+#include "src/camera/camera_file.h"
+#include "src/viewer/viewer.h"
+
+namespace stipple {
+namespace {
+
+// screenshot.png, screenshot-2.png, ...: the first that is not there.
+std::string free_name(const std::string& stem, const std::string& extension) {
+  std::string name = stem + extension;
+  for (int number = 2; std::filesystem::exists(name); ++number) name = fmt::format("{}-{}{}", stem, number, extension);
+  return name;
+}
+
+}  // namespace
+
+void Viewer::execute(Command command) {
+  frames_to_show_ = kFramesAfterEvent;
+  note_.clear();
+  switch (command) {
+    case Command::method_unstructured:
+      return stage_.want(Mode::unstructured, right_meant_ ? Stage::right : Stage::left);
+    case Command::method_hierarchical:
+      return stage_.want(Mode::hierarchical, right_meant_ ? Stage::right : Stage::left);
+    case Command::method_hybrid:
+      return stage_.want(Mode::hybrid, right_meant_ ? Stage::right : Stage::left);
+    case Command::method_brute_force:
+      return stage_.want(Mode::brute_force, right_meant_ ? Stage::right : Stage::left);
+    case Command::method_lod:
+      return stage_.want(Mode::lod, right_meant_ ? Stage::right : Stage::left);
+    case Command::method_subsample:
+      return stage_.want(Mode::subsample, right_meant_ ? Stage::right : Stage::left);
+    case Command::split:
+      shown_sides_ = Shown::both;
+      return stage_.split(!stage_.is_split());
+    case Command::blink:
+      return blink();
+    case Command::home:
+      return go_home();
+    case Command::view_top:
+      return face(90.0, -90.0);
+    case Command::view_bottom:
+      return face(90.0, 90.0);
+    case Command::view_front:
+      return face(90.0, 0.0);
+    case Command::view_back:
+      return face(-90.0, 0.0);
+    case Command::view_left:
+      return face(0.0, 0.0);
+    case Command::view_right:
+      return face(180.0, 0.0);
+    case Command::next_color:
+      return next_color();
+    case Command::larger_points:
+      return set_point_size(options_.point_size + 1.0);
+    case Command::smaller_points:
+      return set_point_size(options_.point_size - 1.0);
+    case Command::clear_picks:
+      return picks_.clear();
+    case Command::panel:
+      options_.panel_shown = !options_.panel_shown;
+      return;
+    case Command::keys:
+      keys_shown_ = !keys_shown_;
+      return;
+    case Command::record:
+      return record();
+    case Command::replay:
+      return replay();
+    case Command::screenshot:
+      screenshot_ = free_name("screenshot", ".png");
+      note_ = "screenshot follows";
+      return;
+    case Command::copy_command:
+      return copy_command();
+    case Command::cancel:
+      if (keys_shown_)
+        keys_shown_ = false;
+      else
+        workshop_.cancel();
+      return;
+    case Command::quit:
+      quit_ = true;
+      return;
+  }
+}
+
+void Viewer::blink() {
+  shown_sides_ = shown_sides_ == Shown::both ? Shown::left : shown_sides_ == Shown::left ? Shown::right : Shown::both;
+}
+
+void Viewer::next_color() {
+  const Dataset* dataset = stage_.dataset();
+  if (!dataset) return;
+  const std::vector<std::string> names = colors_of(dataset->info);
+  const auto now = std::ranges::find(names, options_.color.empty() ? dataset->colors.attribute : options_.color);
+  const std::size_t next = now == names.end() ? 0 : static_cast<std::size_t>(now - names.begin()) + 1;
+  reopen(names[next % names.size()]);
+}
+
+void Viewer::record() {
+  if (!flight_.records()) {
+    flight_.record(window_.seconds());
+    note_ = "recording; R ends it";
+    return;
+  }
+  if (!flight_.finish()) {
+    note_ = "nothing moved: no path was written";
+    return;
+  }
+  const std::string name = free_name("path", ".json");
+  try {
+    const Json document{{"paths", Json::array({json_of(*flight_.path())})}};
+    write_file(name, document.dump(2) + "\n");
+    note_ = fmt::format("{} written", name);
+  } catch (const Error& e) {
+    note_ = e.what();
+  }
+}
+
+void Viewer::replay() {
+  if (flight_.replays())
+    flight_.stop();
+  else if (flight_.records())
+    note_ = "R ends recording first";
+  else if (flight_.path())
+    flight_.replay(window_.seconds());
+  else
+    note_ = "there is no path: R records one";
+}
+
+void Viewer::set_point_size(double pixels) {
+  options_.point_size = std::clamp(pixels, 1.0, 10.0);
+  stage_.set_point_size(options_.point_size);
+}
+
+}  // namespace stipple
