@@ -17,6 +17,7 @@
 #include "src/camera/camera_file.h"
 #include "src/cli/cli.h"
 #include "src/cli/draw_options.h"
+#include "src/cli/eye_dome_flags.h"
 #include "src/json/json.h"
 #include "src/run/peak_memory.h"
 #include "src/run/provenance.h"
@@ -43,6 +44,7 @@ struct Options {
   std::string position_out;
   std::string depth_out;
   DrawOptions draw;
+  EyeDomeFlags eye_dome;
   bool json = false;
 };
 
@@ -51,6 +53,15 @@ struct Picture {
   FrameData frame;
   Json stats;
 };
+
+std::optional<EyeDomeOptions> shading_of(const Options& options) {
+  return options.eye_dome.on ? std::optional(eye_dome_options_of(options.eye_dome)) : std::nullopt;
+}
+
+std::vector<std::uint32_t> shaded_colors(const FeedbackTarget& frame, const EyeDomeOptions& shading) {
+  EyeDome eye_dome;
+  return read_colors(eye_dome.shade(frame, shading));
+}
 
 // The one called --view, or the only one there is.
 template <class Named>
@@ -104,6 +115,7 @@ Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, 
   const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
   const SelectionCounts counts = method->counts();
   Picture picture{renderer.read(), {}};
+  if (const auto shading = shading_of(options)) picture.frame.rgba = shaded_colors(*renderer.frame(), *shading);
   picture.stats = {{"points_drawn", state.points_drawn},
                    {"points_reprojected", state.points_reprojected},
                    {"frames", state.frame},
@@ -149,6 +161,8 @@ void run(const Options& options) {
   rasterizer_of(options.draw);
   budget_of(options.draw);
   const MethodOptions method = method_options_of(options.draw);
+  if (shading_of(options) && !mode)
+    throw UsageError("--edl: the reference is drawn on the CPU, and this is a pass on the GPU; choose another --mode");
   parse_until(options.until);
 
   const Dataset dataset =
@@ -168,6 +182,7 @@ void run(const Options& options) {
              {"by_yield", method.by_yield},
              {"point_size", point_size},
              {"background", options.draw.background},
+             {"edl", json_of(shading_of(options))},
              {"load_ms", dataset.load_seconds * 1e3},
              {"build_ms", dataset.build_seconds * 1e3}};
   const auto fps = budget_of(options.draw).frames_per_second;
@@ -231,6 +246,7 @@ void add_render_command(CLI::App& app) {
   command->add_option("--fov", options->fov_deg, "Vertical field of view in degrees.")
       ->needs(eye)
       ->capture_default_str();
+  add_eye_dome_flags(*command, options->eye_dome);
   command
       ->add_option("--until", options->until,
                    "When to stop: converged (nothing is left to draw), frame:N (after N frames) or ms:T (after T "

@@ -24,7 +24,7 @@ void check_room(const SourceInfo& info, std::uint64_t bytes_per_point, const Mem
   if (bytes <= limits.main) return;
   throw Error(fmt::format(
       "{}: its {} points would take about {:.1f} GB of memory, and {:.1f} are free. Build an octree (stipple "
-      "build) and open that: mode hierarchical draws it from disk.",
+      "build) and open that: mode hybrid draws it from disk.",
       info.path, info.point_count, static_cast<double>(bytes) * 1e-9, static_cast<double>(limits.main) * 1e-9));
 }
 
@@ -178,7 +178,7 @@ void Workshop::open_octree() {
   deliver_cloud(std::make_shared<Dataset>(
       open_dataset(opening_.inputs, opening_.color, {.points = false, .octree = true}, opening_.method.limits)));
   // The first picture comes from disk, whatever it is to be drawn by when all points are there
-  if (opening_.mode != Mode::hierarchical) make_now(Mode::hierarchical);
+  if (needs_of(opening_.mode).points) make_now(Mode::hybrid);
 }
 
 void Workshop::read_all_points() {

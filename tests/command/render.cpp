@@ -71,6 +71,16 @@ TEST_F(RenderCommand, EveryModeAndRasterEndsWithTheSamePictureAndFullStats) {
   }
 }
 
+TEST_F(RenderCommand, EyeDomeLightingIsSaidInTheStats) {
+  const Image plain = picture("plain.png", "--stats " + path("plain.json"));
+  const Image shaded = picture("shaded.png", "--edl --edl-strength 2 --stats " + path("shaded.json"));
+  EXPECT_NE(shaded.rgb, plain.rgb);
+  EXPECT_TRUE(json_file(path("plain.json")).at("edl").is_null());
+  EXPECT_EQ(json_file(path("shaded.json")).at("edl").at("strength"), 2.0);
+  for (const char* wrong : {"--edl --mode reference", "--edl-radius 2", "--edl --edl-strength none"})
+    EXPECT_EQ(run_stipple(folder_, "render " + city_ + " -o " + path("no.png ") + wrong).code, 2) << wrong;
+}
+
 TEST_F(RenderCommand, CompareSaysInfForTwoConvergedModes) {
   picture("a.png", "--mode hierarchical --budget 5k");
   picture("b.png", "--mode unstructured --budget 7k --seed 99");
