@@ -28,6 +28,7 @@ class Hierarchical final : public Method {
   SelectionCounts counts() const override {
     return {.nodes_visible = supply_->visible_nodes(), .bytes_read = supply_->bytes_read()};
   }
+  std::vector<SightedBox> boxes() const override;
 
  private:
   struct Reading {
@@ -45,10 +46,11 @@ class Hierarchical final : public Method {
 
   std::unique_ptr<PointSupply> supply_;
   StreamBuffer stream_;
-  std::vector<Reading> readings_;  // front to back
-  std::size_t next_ = 0;           // reading to go on with in this round
-  std::uint64_t to_request_ = 0;   // points not requested yet for this view
-  std::uint64_t under_way_ = 0;    // points requested and not drawn yet
+  std::vector<Reading> readings_;    // front to back
+  std::vector<std::uint32_t> done_;  // handles of clusters whose points are all requested
+  std::size_t next_ = 0;             // reading to go on with in this round
+  std::uint64_t to_request_ = 0;     // points not requested yet for this view
+  std::uint64_t under_way_ = 0;      // points requested and not drawn yet
 };
 
 }  // namespace stipple

@@ -24,6 +24,8 @@ class Hybrid final : public Method {
   void frame_drawn(const FeedbackTarget& frame) override;
   bool finished() const override { return selected_ && open_ == 0 && clusters_->finished(); }
   SelectionCounts counts() const override;
+  // Of a tree on disk, those that are on the GPU.
+  std::vector<SightedBox> boxes() const override { return selected_ ? selector_.boxes() : std::vector<SightedBox>{}; }
 
  private:
   std::unique_ptr<ClusterSource> clusters_;

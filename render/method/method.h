@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/frame/camera.h"
+#include "render/method/sighted_box.h"
 #include "render/raster/rasterizer.h"
 #include "render/store/dataset.h"
 
@@ -55,6 +56,8 @@ class Method {
   // budget.
   virtual bool finished() const = 0;
   virtual SelectionCounts counts() const { return {}; }
+  // Those in sight; none where the method knows none. May wait for the GPU.
+  virtual std::vector<SightedBox> boxes() const { return {}; }
 };
 
 enum class Mode { brute_force, hierarchical, unstructured, hybrid, lod, subsample };
