@@ -58,6 +58,8 @@ bool fetch_point(uint i, out ivec4 point, out uint id) {
   if (i >= source_count()) return false;
   uint place = place_of(i);
   point = source_points[place];
+  // The uppermost bit of an opaque colour; a point of none is not to be seen
+  if (point.w >= 0) return false;
   id = source_has_ids ? source_ids[place] : source_id_shift + place;
   return true;
 }

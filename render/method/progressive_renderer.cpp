@@ -75,7 +75,8 @@ void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
 void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   if (!targets_[0] || size != current().size()) resize(size);
   GpuBuffer point(sizeof(PackedPoint));
-  point.fill(0);
+  const PackedPoint black{glm::ivec3(0), 0xFF000000u};
+  point.write(0, &black, sizeof black);
   std::vector<DrawItem> items{PointRange{.points = &point, .count = 1}};
   append_carry(items);
   // The point lies in front of the eye, so that no pass ends early

@@ -127,6 +127,7 @@ void draw_range(const PointSet& set, const View& view, const Projection& project
     const std::size_t count = std::min(kBatch, end - first);
     projection.project(set.points.data() + first, count, batch);
     for (std::size_t i = 0; i < count; ++i) {
+      if (set.points[first + i].rgba >> 24 == 0) continue;
       const double x = batch.x[i];
       const double y = batch.y[i];
       if (batch.depth[i] > view.near && x >= 0.0 && x < width && y >= 0.0 && y < height)

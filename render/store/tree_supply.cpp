@@ -31,7 +31,7 @@ GridBox grid_box_around(const Grid& grid, const WorldBox& box) {
 
 TreeSupply::TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, std::uint64_t bytes_before)
     : store_(std::move(store)), colors_(std::move(colors)), bytes_before_(bytes_before), tree_(store_) {
-  if (const auto index = find_attribute(store_->info().source.schema, colors_.attribute)) attributes_.push_back(*index);
+  attributes_ = attributes_of(colors_, store_->info().source.schema);
   for (std::size_t i = 0; i < kReadThreads; ++i)
     threads_.emplace_back([this, looks_first = i % 2 == 0] { work(looks_first); });
 }
@@ -193,7 +193,7 @@ TreeSupply::Arrival TreeSupply::read(const Request& request) const {
   Arrival arrival;
   arrival.first_id = first_id_of(request.node) + request.first;
   arrival.points.resize(batch.positions.size());
-  pack_points(colors_, batch.positions, batch.columns.empty() ? nullptr : &batch.columns.front(), 0, arrival.points);
+  pack_points(colors_, batch.positions, batch.columns, 0, arrival.points);
   return arrival;
 }
 

@@ -16,6 +16,7 @@
 #include "render/store/dataset.h"
 #include "src/camera/camera_file.h"
 #include "src/cli/cli.h"
+#include "src/cli/color_flags.h"
 #include "src/cli/draw_options.h"
 #include "src/cli/eye_dome_flags.h"
 #include "src/json/json.h"
@@ -44,6 +45,7 @@ struct Options {
   std::string position_out;
   std::string depth_out;
   DrawOptions draw;
+  ColorFlags color;
   EyeDomeFlags eye_dome;
   bool json = false;
 };
@@ -164,9 +166,9 @@ void run(const Options& options) {
   if (shading_of(options) && !mode)
     throw UsageError("--edl: the reference is drawn on the CPU, and this is a pass on the GPU; choose another --mode");
   parse_until(options.until);
+  const ColorChoice color = color_choice_of(options.draw.color, options.color);
 
-  const Dataset dataset =
-      open_dataset(options.inputs, options.draw.color, mode ? needs_of(*mode) : DatasetNeeds{}, method.limits);
+  const Dataset dataset = open_dataset(options.inputs, color, mode ? needs_of(*mode) : DatasetNeeds{}, method.limits);
   for (const std::string& warning : dataset.info.warnings) warn(warning);
   const Camera camera = camera_of(options, dataset, static_cast<double>(size.x) / size.y);
   const View view = make_view(camera, size, near_plane(dataset.points.grid));
@@ -189,6 +191,7 @@ void run(const Options& options) {
   stats["target_fps"] = fps ? Json(*fps) : Json();
   stats.update(picture.stats);
   stats.update(dataset_provenance(dataset));
+  stats.update(color_provenance(dataset.colors));
   stats["view"] = view_provenance(view);
   stats.update(program_provenance());
   stats["peak_memory_bytes"] = peak_memory();
@@ -246,6 +249,7 @@ void add_render_command(CLI::App& app) {
   command->add_option("--fov", options->fov_deg, "Vertical field of view in degrees.")
       ->needs(eye)
       ->capture_default_str();
+  add_color_flags(*command, options->color);
   add_eye_dome_flags(*command, options->eye_dome);
   command
       ->add_option("--until", options->until,

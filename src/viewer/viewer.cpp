@@ -39,21 +39,23 @@ void Viewer::run() {
 }
 
 bool Viewer::at_rest() const {
-  return stage_.at_rest(view()) && workshop_.status().phase == WorkStatus::Phase::idle && flown_until_ < 0.0 &&
-         !hover_.waiting() && !clicked_.waiting() && frames_to_show_ == 0;
+  return stage_.at_rest(wanted_view()) && workshop_.status().phase == WorkStatus::Phase::idle && flown_until_ < 0.0 &&
+         !hover_.waiting() && !clicked_.waiting() && !compares_soon() && !comparison_.busy() && frames_to_show_ == 0;
 }
 
 bool Viewer::step(double most_seconds) {
-  const bool drawing =
-      !stage_.at_rest(view()) || frames_to_show_ > 0 || flown_until_ >= 0.0 || hover_.waiting() || clicked_.waiting();
-  const bool working = workshop_.status().phase != WorkStatus::Phase::idle;
+  const bool drawing = !stage_.at_rest(wanted_view()) || frames_to_show_ > 0 || flown_until_ >= 0.0 ||
+                       hover_.waiting() || clicked_.waiting();
+  const bool working = workshop_.status().phase != WorkStatus::Phase::idle || tree_job_.running();
   const bool hidden = window_.hidden();
-  window_.wait_events(drawing && !hidden  ? 0.0
-                      : working || hidden ? std::min(kWorkInterval, most_seconds)
-                                          : most_seconds);
+  window_.wait_events(drawing && !hidden                     ? 0.0
+                      : working || hidden || compares_soon() ? std::min(kWorkInterval, most_seconds)
+                                                             : most_seconds);
   take_finished();
   for (const InputEvent& event : window_.take_events()) take_event(event);
   if (working) frames_to_show_ = std::max(frames_to_show_, 1);
+  take_tree();
+  if (comparison_.take()) frames_to_show_ = kFramesAfterEvent;
   fly();
   if (flight_.replays()) rig_.place(flight_.camera(window_.seconds()));
   flight_.see(rig_.camera(), window_.seconds());
@@ -67,16 +69,17 @@ void Viewer::open(const std::vector<std::string>& inputs) {
   entered_ = false;
   awaited_ = false;
   picks_.clear();
-  const bool tree = inputs.size() == 1 && is_tree(inputs.front());
+  comparison_.end();
+  can_build_ = inputs.size() != 1 || !is_tree(inputs.front());
   window_.set_title(fmt::format("{} - stipple", std::filesystem::path(inputs.front()).filename().string()));
   stage_.open({.inputs = inputs,
                .color = options_.color,
-               .mode = options_.mode.value_or(tree ? Mode::hierarchical : Mode::hybrid),
+               .mode = options_.mode.value_or(Mode::hybrid),
                .method = options_.method,
                .aspect = static_cast<double>(size_.x) / size_.y});
 }
 
-void Viewer::reopen(const std::string& color) {
+void Viewer::reopen(const ColorChoice& color) {
   options_.color = color;
   stage_.open({.inputs = options_.inputs,
                .color = color,
@@ -130,6 +133,16 @@ void Viewer::take(const finished::Failure& failure) {
     note_ = "cancelled";
   else
     warn(failure.message);
+}
+
+void Viewer::take_tree() {
+  const auto result = tree_job_.take();
+  if (!result) return;
+  frames_to_show_ = kFramesAfterEvent;
+  built_tree_ = result->failure.empty() ? result->folder : "";
+  note_ = result->cancelled         ? "cancelled"
+          : result->failure.empty() ? fmt::format("{} is built", result->folder)
+                                    : result->failure;
 }
 
 void Viewer::take(const finished::Description& description) {

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "octree/build/stream/options.h"
 #include "octree/core/error.h"
 #include "octree/core/output_file.h"
 #include "src/camera/camera_file.h"
+#include "src/run/free_memory.h"
+#include "src/viewer/legend.h"
 #include "src/viewer/viewer.h"
 
 namespace stipple {
@@ -42,6 +45,16 @@ void Viewer::execute(Command command) {
       return stage_.split(!stage_.is_split());
     case Command::blink:
       return blink();
+    case Command::compare:
+      return compare();
+    case Command::again:
+      comparison_.begin_view(window_.seconds());
+      return stage_.begin_again();
+    case Command::freeze:
+      return freeze();
+    case Command::boxes:
+      boxes_shown_ = !boxes_shown_;
+      return;
     case Command::home:
       return go_home();
     case Command::view_top:
@@ -62,6 +75,11 @@ void Viewer::execute(Command command) {
       return set_point_size(options_.point_size + 1.0);
     case Command::smaller_points:
       return set_point_size(options_.point_size - 1.0);
+    case Command::hide_class:
+      return hide_class();
+    case Command::shade:
+      options_.shaded = !options_.shaded;
+      return;
     case Command::clear_picks:
       return picks_.clear();
     case Command::panel:
@@ -75,16 +93,18 @@ void Viewer::execute(Command command) {
     case Command::replay:
       return replay();
     case Command::screenshot:
-      screenshot_ = free_name("screenshot", ".png");
-      note_ = "screenshot follows";
-      return;
+      return want_screenshot(std::nullopt);
+    case Command::build_tree:
+      return build_tree_of_inputs();
     case Command::copy_command:
       return copy_command();
     case Command::cancel:
       if (keys_shown_)
         keys_shown_ = false;
-      else
+      else if (workshop_.status().phase != WorkStatus::Phase::idle)
         workshop_.cancel();
+      else
+        tree_job_.cancel();
       return;
     case Command::quit:
       quit_ = true;
@@ -96,13 +116,75 @@ void Viewer::blink() {
   shown_sides_ = shown_sides_ == Shown::both ? Shown::left : shown_sides_ == Shown::left ? Shown::right : Shown::both;
 }
 
+void Viewer::compare() {
+  comparison_.turn();
+  const Dataset* dataset = stage_.dataset();
+  if (comparison_.on() && dataset && !dataset->in_memory())
+    note_ = "the reference needs all points in memory: F1 reads them";
+}
+
+void Viewer::freeze() {
+  stage_.freeze(!stage_.frozen());
+  if (!stage_.frozen()) return;
+  frozen_view_ = view();
+  frozen_reach_ = glm::distance(rig_.camera().eye, rig_.pivot());
+  note_ = "these points stay; F goes on drawing";
+}
+
 void Viewer::next_color() {
   const Dataset* dataset = stage_.dataset();
   if (!dataset) return;
   const std::vector<std::string> names = colors_of(dataset->info);
-  const auto now = std::ranges::find(names, options_.color.empty() ? dataset->colors.attribute : options_.color);
+  ColorChoice choice = options_.color;
+  if (choice.attribute.empty()) choice.attribute = dataset->colors.attribute;
+  const auto now = std::ranges::find(names, choice.attribute);
   const std::size_t next = now == names.end() ? 0 : static_cast<std::size_t>(now - names.begin()) + 1;
-  reopen(names[next % names.size()]);
+  choice.attribute = names[next % names.size()];
+  reopen(choice);
+}
+
+void Viewer::want_screenshot(const std::optional<glm::ivec2>& size) {
+  screenshot_ = free_name("screenshot", ".png");
+  options_.screenshot_size = size;
+  note_ = size ? fmt::format("drawing a picture of {} x {} pixels", size->x, size->y) : "screenshot follows";
+}
+
+void Viewer::build_tree_of_inputs() {
+  if (tree_job_.running()) {
+    note_ = "an octree is being built already; Esc ends that";
+  } else if (!can_build_) {
+    note_ = "there is no file open to build an octree of";
+  } else {
+    // Half of what is free: the window has its points there, too
+    const std::uint64_t memory = std::clamp(free_memory() / 2, kLeastMemory, StreamOptions{}.memory);
+    const std::filesystem::path first(options_.inputs.front());
+    const std::filesystem::path bare = first.has_filename() ? first : first.parent_path();
+    tree_job_.start(options_.inputs, free_name((bare.parent_path() / bare.stem()).string(), ".octree"), memory);
+  }
+}
+
+void Viewer::hide_class() {
+  ColorChoice choice = options_.color;
+  if (picks_.empty()) {
+    if (choice.hidden.none()) {
+      note_ = "pick a point first: points of its class are hidden then";
+      return;
+    }
+    choice.hidden.reset();
+  } else {
+    const PointValues& values = picks_.back().values;
+    const auto value = std::ranges::find(values, kClassAttribute, &PointValues::value_type::first);
+    if (value == values.end()) {
+      note_ = values.empty() ? "its attributes are being read" : "the points have no class";
+      return;
+    }
+    const auto number = static_cast<std::size_t>(std::stod(value->second));
+    if (number >= choice.hidden.size()) return;
+    choice.hidden.set(number);
+    note_ = fmt::format("class {} {} is hidden", number, class_name(static_cast<int>(number)));
+    picks_.clear();
+  }
+  reopen(choice);
 }
 
 void Viewer::record() {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "octree/core/error.h"
 #include "src/viewer/viewer.h"
 
 namespace stipple {
@@ -48,25 +49,81 @@ void Viewer::set_policy(const BudgetPolicy& policy) {
 }
 
 void Viewer::draw_cloud() {
-  const View fine = view();
-  const bool coarse = moving() && controller_ && resolution_.divisor() > 1;
+  const View fine = wanted_view();
+  const bool coarse = moving() && controller_ && resolution_.divisor() > 1 && fine.size == size_;
   const View next = coarse ? rig_.view(glm::max(size_ / resolution_.divisor(), 1)) : fine;
   if (stage_.at_rest(next)) return;
-  stage_.draw(next, budget());
+  if (std::exchange(drawn_view_, next) != next) comparison_.begin_view(window_.seconds());
+  try {
+    stage_.draw(next, budget());
+  } catch (const Error& e) {
+    // A picture for which there is no room is no reason to end
+    if (fine.size == size_ || options_.exit_after_screenshot) throw;
+    screenshot_.clear();
+    options_.screenshot_size.reset();
+    note_ = e.what();
+    stage_.begin_again();
+  }
   hover_stale_ = true;
   if (stage_.at_rest(fine)) frames_to_show_ = kFramesAfterEvent;
+}
+
+// What is to be compared with the reference; none: there is nothing, or not all points are in memory.
+std::optional<ReferencePainter::Subject> Viewer::compared() const {
+  const std::shared_ptr<const Dataset>& dataset = stage_.pane().content().dataset;
+  if (!comparison_.on() || !dataset || !dataset->in_memory()) return std::nullopt;
+  return ReferencePainter::Subject{dataset, wanted_view(), options_.point_size};
+}
+
+// A reference is missing that has not been asked for: the camera has hardly stopped.
+bool Viewer::compares_soon() const {
+  const auto subject = compared();
+  return subject && !comparison_.asked_for(*subject);
+}
+
+void Viewer::ask_for_reference() {
+  if (!moving() && compares_soon()) comparison_.rest(*compared());
+}
+
+void Viewer::compare_frames() {
+  differences_ = {};
+  if (!compared() || drawn_view_ != wanted_view() || !comparison_.reference_of(drawn_view_)) return;
+  for (const Stage::Side side : {Stage::left, Stage::right})
+    if (stage_.frame(side) && (side == Stage::left || stage_.is_split()))
+      differences_[side] = &comparison_.compare(side, *stage_.frame(side), stage_.pane(side).frames(),
+                                                options_.background, window_.seconds());
+}
+
+void Viewer::lay_wires() {
+  wires_ = {};
+  box_counts_ = {};
+  for (const Stage::Side side : {Stage::left, Stage::right}) {
+    if (!stage_.frame(side) || (side == Stage::right && !stage_.is_split())) continue;
+    if (boxes_shown_) {
+      const std::vector<SightedBox> boxes = stage_.pane(side).boxes();
+      if (side == Stage::left)
+        for (const SightedBox& box : boxes) ++box_counts_[static_cast<std::size_t>(box.state)];
+      wires_[side] = wires_of(boxes, stage_.grid(), wanted_view());
+    }
+    if (!stage_.pane(side).frozen()) continue;
+    const std::vector<WireEnd> camera = wires_of(frozen_view_, frozen_reach_, wanted_view());
+    wires_[side].insert(wires_[side].end(), camera.begin(), camera.end());
+  }
 }
 
 void Viewer::show_frame() {
   size_ = glm::max(window_.size(), 1);
   notice_motion();
-  if (stage_.at_rest(view()) && frames_to_show_ == 0) return;
+  ask_for_reference();
+  if (stage_.at_rest(wanted_view()) && frames_to_show_ == 0) return;
   const auto start = Clock::now();
   const std::uint64_t frames_before = stage_.frames();
   const bool was_moving = moving();
   draw_cloud();
+  compare_frames();
+  lay_wires();
   if (stage_.frame())
-    display_.show(scene(), size_);
+    display_.show(scene(size_.x), size_);
   else
     display_.clear(options_.background, size_);
   show_panels();
@@ -106,12 +163,20 @@ void Viewer::show_panels() {
                                          .frame_ms = frame_ms_,
                                          .budget = budget(),
                                          .policy = options_.policy,
+                                         .color = options_.color,
                                          .point_size = options_.point_size,
                                          .background = options_.background,
+                                         .shaded = options_.shaded,
+                                         .eye_dome = options_.eye_dome,
                                          .divider = shows_both() ? std::optional(divider_column()) : std::nullopt,
                                          .right_alone = shown_sides_ == Shown::right,
+                                         .comparison = comparison_,
+                                         .box_counts = boxes_shown_ ? std::optional(box_counts_) : std::nullopt,
                                          .under_cursor = under_cursor_,
                                          .recent = options_.recent,
+                                         .tree_job = tree_job_,
+                                         .built_tree = built_tree_,
+                                         .can_build = can_build_,
                                          .note = note_,
                                          .panel_shown = options_.panel_shown,
                                          .keys_shown = keys_shown_,
@@ -126,7 +191,9 @@ void Viewer::grant(const PanelWishes& wishes) {
   if (wishes.color) reopen(*wishes.color);
   if (wishes.point_size) set_point_size(*wishes.point_size);
   if (wishes.background) options_.background = *wishes.background;
+  if (wishes.eye_dome) options_.eye_dome = *wishes.eye_dome;
   if (wishes.policy) set_policy(*wishes.policy);
+  if (wishes.picture) want_screenshot(*wishes.picture);
   if (wishes.open) open(*wishes.open);
   if (wishes.dismiss_error) stage_.dismiss_error();
 }

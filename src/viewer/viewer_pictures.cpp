@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "octree/core/error.h"
+#include "src/cli/color_flags.h"
+#include "src/cli/eye_dome_flags.h"
 #include "src/run/provenance.h"
 #include "src/viewer/command_line.h"
 #include "src/viewer/viewer.h"
@@ -15,22 +17,42 @@ ViewerSettings Viewer::settings() const {
   return {.background = options_.background,
           .point_size = options_.point_size,
           .frames_per_second = options_.policy.frames_per_second.value_or(ViewerSettings{}.frames_per_second),
+          .shaded = options_.shaded,
+          .eye_dome = options_.eye_dome,
           .panel_shown = options_.panel_shown};
 }
 
-Display::Scene Viewer::scene() const {
-  Display::Scene scene{.left = stage_.frame(), .background = options_.background};
+std::optional<EyeDomeOptions> Viewer::shading() const {
+  return options_.shaded ? std::optional(options_.eye_dome) : std::nullopt;
+}
+
+View Viewer::wanted_view() const {
+  return !screenshot_.empty() && options_.screenshot_size ? rig_.view(*options_.screenshot_size) : view();
+}
+
+Display::Scene Viewer::scene(int width) const {
+  Display::Scene scene{.left = stage_.frame(), .background = options_.background, .eye_dome = shading()};
   if (shows_both()) {
     scene.right = stage_.frame(Stage::right);
-    scene.divider = divider_column();
+    scene.divider = divider_column(width);
   } else if (stage_.is_split() && shown_sides_ == Shown::right && stage_.frame(Stage::right)) {
     scene.left = stage_.frame(Stage::right);
+  }
+  scene.near = view().near;
+  scene.wires = {wires_[Stage::left], wires_[Stage::right]};
+  if (scene.left == stage_.frame(Stage::right)) scene.wires[0] = wires_[Stage::right];
+  if (!differences_[Stage::left]) return scene;
+  scene.packed = {differences_[Stage::left], differences_[Stage::right]};
+  if (scene.left == stage_.frame(Stage::right)) scene.packed[0] = differences_[Stage::right];
+  if (comparison_.shown() == Comparison::Shown::reference) {
+    scene.packed[0] = comparison_.reference_of(wanted_view());
+    scene.right = nullptr;
   }
   return scene;
 }
 
 Image Viewer::picture() {
-  if (stage_.frame()) return display_.picture(scene());
+  if (stage_.frame()) return display_.picture(scene(stage_.frame()->size().x));
   throw Error("there is nothing to picture yet");
 }
 
@@ -47,25 +69,35 @@ Image Viewer::window_picture() const {
 }
 
 void Viewer::take_screenshot_if_due() {
-  if (screenshot_.empty() || !stage_.complete(view()) || workshop_.status().phase != WorkStatus::Phase::idle) return;
-  const std::string path = std::exchange(screenshot_, {});
+  if (screenshot_.empty() || !stage_.complete(wanted_view()) || workshop_.status().phase != WorkStatus::Phase::idle)
+    return;
+  if (comparison_.on() && (comparison_.busy() || compares_soon())) return;
   frames_to_show_ = kFramesAfterEvent;
   try {
-    write_screenshot(path);
-    note_ = fmt::format("{} written", path);
+    write_screenshot(screenshot_);
+    note_ = fmt::format("{} written", screenshot_);
   } catch (const Error& e) {
     if (options_.exit_after_screenshot) throw;
     note_ = e.what();
   }
+  screenshot_.clear();
+  options_.screenshot_size.reset();
   if (options_.exit_after_screenshot) quit_ = true;
 }
 
 void Viewer::write_screenshot(const std::string& path) {
-  Json facts{{"mode", name_of(*stage_.pane().mode())}, {"raster", name_of(options_.rasterizer)},
-             {"point_size", options_.point_size},      {"background", fmt::format("{:06x}", options_.background)},
-             {"gl_renderer", window_.renderer()},      {"gl_version", window_.version()}};
+  Json facts{{"mode", name_of(*stage_.pane().mode())},
+             {"raster", name_of(options_.rasterizer)},
+             {"point_size", options_.point_size},
+             {"background", fmt::format("{:06x}", options_.background)},
+             {"edl", json_of(shading())},
+             {"shows", name_of(comparison_.shown())},
+             {"frozen", stage_.frozen()},
+             {"gl_renderer", window_.renderer()},
+             {"gl_version", window_.version()}};
   facts.update(dataset_provenance(*stage_.dataset()));
-  facts["view"] = view_provenance(view());
+  facts.update(color_provenance(stage_.dataset()->colors));
+  facts["view"] = view_provenance(wanted_view());
   facts.update(program_provenance());
   write_png(path, options_.with_panels ? window_picture() : picture(), {{"stipple", text_of(facts)}});
 }
@@ -78,9 +110,10 @@ void Viewer::copy_command() {
                                               .raster = std::string(name_of(options_.rasterizer)),
                                               .camera = rig_.camera(),
                                               .size = size_,
-                                              .color = dataset->colors.attribute,
+                                              .colors = dataset->colors,
                                               .point_size = options_.point_size,
-                                              .background = options_.background}));
+                                              .background = options_.background,
+                                              .shading = shading()}));
   note_ = "the command that renders this view is in the clipboard";
 }
 

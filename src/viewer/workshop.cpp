@@ -165,7 +165,8 @@ void Workshop::open_now() {
 void Workshop::open_files() {
   const auto source = open_source(opening_.inputs);
   const SourceInfo& info = source->info();
-  const std::string color = choose_color(info.schema, opening_.color);
+  ColorChoice color = opening_.color;
+  color.attribute = choose_color(info.schema, color.attribute);
   check_room(info, kBytesPerPoint, opening_.method.limits);
   deliver(finished::Beginning{info});
   const WatchedSource watched(*source, watch_, color,
@@ -192,7 +193,7 @@ void Workshop::read_all_points() {
   whole.colors = dataset_->colors;
   whole.tree = dataset_->tree;
   whole.root = dataset_->root;
-  whole.points = make_point_set(load_cloud(watched, attributes_for_color(whole.colors.attribute)), whole.colors);
+  whole.points = make_point_set(load_cloud(watched, attribute_names_of(whole.colors, whole.info.schema)), whole.colors);
   whole.points.ids = ids_of(source.nodes());
   whole.bytes_to_load = whole.tree->bytes_read();
   deliver_cloud(std::make_shared<Dataset>(std::move(whole)));
@@ -231,6 +232,7 @@ void Workshop::describe_now(std::uint32_t id, const glm::ivec3& position) {
   try {
     values = dataset_->tree ? describe_point(*dataset_->tree, id, position)
                             : describe_point(*open_source(opening_.inputs), id);
+    if (dataset_->octree) values.insert(values.begin(), {"node", node_of(*dataset_->octree, id)});
   } catch (const Error& e) {
     values = {{"", e.what()}};
   }
