@@ -26,8 +26,8 @@ bool fetch_point(ivec2 pixel, out ivec4 point, out uint id) {
 
 #define PointIndex uint
 
-layout(std430, binding = 0) readonly buffer SourcePoints { ivec4 source_points[]; };
-layout(std430, binding = 1) readonly buffer SourceIds { uint source_ids[]; };
+layout(binding = 4) uniform isamplerBuffer source_points;
+layout(binding = 5) uniform usamplerBuffer source_ids;
 layout(location = 0) uniform uint source_first;
 layout(location = 2) uniform uint source_id_shift;  // id minus place, modulo 2^32
 layout(location = 3) uniform bool source_has_ids;
@@ -44,12 +44,13 @@ uint source_count() { return source_size; }
 #endif
 
 #if defined(SOURCE_PICKS) || defined(SOURCE_INDICES)
-layout(std430, binding = 2) readonly buffer SourcePlaces { uint source_places[]; };
+layout(binding = 6) uniform usamplerBuffer source_places;
+uint fetch_place(uint i) { return texelFetch(source_places, int(i)).x; }
 #endif
 #if defined(SOURCE_PICKS)
-uint place_of(uint i) { return source_places[source_first + i]; }
+uint place_of(uint i) { return fetch_place(source_first + i); }
 #elif defined(SOURCE_INDICES)
-uint place_of(uint i) { return source_places[source_commands[source_first].begin + i]; }
+uint place_of(uint i) { return fetch_place(source_commands[source_first].begin + i); }
 #else
 uint place_of(uint i) { return source_first + i; }
 #endif
@@ -57,10 +58,10 @@ uint place_of(uint i) { return source_first + i; }
 bool fetch_point(uint i, out ivec4 point, out uint id) {
   if (i >= source_count()) return false;
   uint place = place_of(i);
-  point = source_points[place];
+  point = texelFetch(source_points, int(place));
   // The uppermost bit of an opaque colour; a point of none is not to be seen
   if (point.w >= 0) return false;
-  id = source_has_ids ? source_ids[place] : source_id_shift + place;
+  id = source_has_ids ? texelFetch(source_ids, int(place)).x : source_id_shift + place;
   return true;
 }
 

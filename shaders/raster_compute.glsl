@@ -1,4 +1,5 @@
-// The compute rasterizer. PASS_DEPTH: nearest depth of every pixel. PASS_CLAIM: lowest id at that depth, and its point.
+// The compute rasterizer. PASS_DEPTH: nearest depth of every pixel; OVER_PICTURE: whoever owned a
+// pixel farther away does so no longer. PASS_CLAIM: lowest id at that depth, and its point.
 // PASS_REPEAT: winners write again, when there were more ties than notes. SPLATS: points may be larger than a pixel.
 #include "projection.glsl"
 #include "point_source.glsl"
@@ -10,8 +11,10 @@ layout(local_size_x = 128) in;
 #include "invocation.glsl"
 
 layout(r32ui, binding = 0) uniform uimage2D target_depth;
-#ifndef PASS_DEPTH
+#if !defined(PASS_DEPTH) || defined(OVER_PICTURE)
 layout(r32ui, binding = 1) uniform uimage2D target_ids;
+#endif
+#ifndef PASS_DEPTH
 layout(rgba32i, binding = 2) uniform writeonly iimage2D target_points;
 #include "ties.glsl"
 #endif
@@ -19,7 +22,12 @@ layout(rgba32i, binding = 2) uniform writeonly iimage2D target_points;
 void cover(ivec2 pixel, uint depth, ivec4 point, uint id) {
 #if defined(PASS_DEPTH)
   // Reversed depth is positive, so its bits order as its values do
-  if (depth > imageLoad(target_depth, pixel).x) imageAtomicMax(target_depth, pixel, depth);
+  uint before = imageLoad(target_depth, pixel).x;
+  if (depth <= before) return;
+  imageAtomicMax(target_depth, pixel, depth);
+#ifdef OVER_PICTURE
+  if (before != 0u) imageStore(target_ids, pixel, uvec4(kNoPoint));
+#endif
 #elif defined(PASS_CLAIM)
   if (imageLoad(target_depth, pixel).x != depth) return;
   uint before = imageAtomicMin(target_ids, pixel, id);

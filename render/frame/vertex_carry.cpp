@@ -51,7 +51,7 @@ void VertexCarry::prepare(const FeedbackTarget& frame) {
   finish_.use();
   glUniform1ui(0, kRasterGroupSize);
   glDispatchCompute(1, 1, 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
 CoverageCounter::CoverageCounter() : counter_(16), program_(Program::compute("count_covered.glsl")) {}

@@ -36,4 +36,14 @@ void GpuBuffer::bind_storage(GLuint binding, std::size_t offset, std::size_t byt
                     static_cast<GLsizeiptr>(bytes));
 }
 
+void GpuBuffer::bind_texels(GLuint unit, GLenum format) const {
+  if (!texels_.name()) {
+    GLuint texture = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
+    texels_ = Handle<gl_delete::texture>(texture);
+    glTextureBuffer(texture, format, name());
+  }
+  glBindTextureUnit(unit, texels_.name());
+}
+
 }  // namespace stipple

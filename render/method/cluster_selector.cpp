@@ -53,7 +53,7 @@ Program compile(const char* shader, std::vector<ShaderDefine> defines = {}) {
 }  // namespace
 
 ClusterSelector::ClusterSelector(const ClusterTable& table, const Options& options)
-    : table_(table),
+    : table_(&table),
       options_(options),
       outline_(compile("select_outline.glsl")),
       test_from_image_(compile("select_test.glsl")),
@@ -91,6 +91,29 @@ void ClusterSelector::forget() {
   start_view();
 }
 
+void ClusterSelector::warm_up(const View& view, const FeedbackTarget& frame) {
+  const ClusterTable* const table = table_;
+  ClusterTable small;
+  small.chunks.push_back({GpuBuffer(2 * sizeof(PackedPoint)), GpuBuffer(2 * sizeof(std::uint32_t))});
+  small.chunks[0].points.fill(0);
+  small.chunks[0].ids.fill(0);
+  // Of its two points a frame draws one, so that the second frame has something to test
+  const ClusterTable::Row row{glm::ivec3(0), 0, glm::ivec3(0), 2};
+  small.boxes = GpuBuffer(sizeof row);
+  small.boxes.write(0, &row, sizeof row);
+  small.log_pixels = GpuBuffer(ClusterTable::kLevels * sizeof(float));
+  small.log_pixels.fill(0);
+  small.size = small.capacity = 1;
+  table_ = &small;
+  forget();
+  for (int frames = 0; frames < 2; ++frames) {
+    select(view, 1);
+    learn(frame);
+  }
+  table_ = table;
+  forget();
+}
+
 void ClusterSelector::start_view() {
   drawn_ = nullptr;
   selected_ = false;
@@ -101,17 +124,17 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
   const bool new_view = !selected_;
   selected_ = true;
   taken_.clear();
-  if (table_.size == 0) return {};
-  const Tested tested{table_.boxes, table_.log_pixels, states_, sight_, silhouettes_, prospects_, new_view};
+  if (table_->size == 0) return {};
+  const Tested tested{table_->boxes, table_->log_pixels, states_, sight_, silhouettes_, prospects_, new_view};
   if (new_view) {
     sight_.fill(0);
-    outline(tested, 0, table_.size);
+    outline(tested, 0, table_->size);
   } else {
     outline(tested, open_ - added_, added_);
   }
   added_ = 0;
   if (sees_depth()) test(tested, open_);
-  score(view, new_view ? table_.size : open_, new_view);
+  score(view, new_view ? table_->size : open_, new_view);
   rank(std::min(budget, options_.largest_budget));
   Result result = read_back();
   open_ = result.open;
@@ -122,7 +145,7 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
   const std::uint32_t stretches = taken_.back().first_stretch + taken_.back().stretches;
   glUniform1ui(0, stretches);
   dispatch_items(stretches, 64);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   return result;
 }
 
@@ -139,7 +162,7 @@ void ClusterSelector::outline(const Tested& tested, std::uint32_t first, std::ui
   glUniform1ui(1, first);
   glUniform1i(2, tested.all ? 1 : 0);
   glUniform1i(3, DepthPyramid::kMostLevels);
-  glUniform1f(4, static_cast<float>(table_.root_edge));
+  glUniform1f(4, static_cast<float>(table_->root_edge));
   dispatch_items(count, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -235,7 +258,7 @@ std::vector<bool> ClusterSelector::hidden(std::span<const GridBox> boxes) {
 
 void ClusterSelector::score(const View& view, std::uint32_t count, bool all) {
   summary_.fill(0);
-  table_.boxes.bind_storage(0);
+  table_->boxes.bind_storage(0);
   states_.bind_storage(1);
   open_clusters_.bind_storage(2);
   wishing_.bind_storage(3);
@@ -259,7 +282,7 @@ void ClusterSelector::rank(std::uint32_t budget) {
   glUniform1ui(0, budget);
   glDispatchCompute(1, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-  const auto blocks = static_cast<GLuint>(blocks_of(table_.size));
+  const auto blocks = static_cast<GLuint>(blocks_of(table_->size));
   sums_.use();
   glUniform1ui(0, blocks);
   dispatch_items(blocks, 64);
@@ -279,7 +302,7 @@ ClusterSelector::Result ClusterSelector::read_back() {
     Totals totals;
     std::array<ChunkBegin, ClusterTable::kMostChunks + 1> begins;
   } head;
-  const std::size_t chunks = table_.chunks.size();
+  const std::size_t chunks = table_->chunks.size();
   summary_.read(0, &head, sizeof(Totals) + chunks * sizeof(ChunkBegin));
   head.begins[chunks] = {head.totals.points, head.totals.stretches};
   Sight sight{};
@@ -299,12 +322,12 @@ void ClusterSelector::learn(const FeedbackTarget& frame) {
     frame.ids().bind(1);
     states_.bind_storage(2);
     places_.bind_storage(3);
-    table_.boxes.bind_storage(4);
+    table_->boxes.bind_storage(4);
     stretches_.bind_storage(7);
     for (std::size_t c = 0; c < taken_.size(); ++c) {
       if (taken_[c].stretches == 0) continue;
-      table_.chunks[c].points.bind_storage(0);
-      table_.chunks[c].ids.bind_storage(1);
+      table_->chunks[c].points.bind_storage(0);
+      table_->chunks[c].ids.bind_storage(1);
       glUniform1ui(0, taken_[c].first_stretch);
       glUniform1ui(1, taken_[c].first_stretch + taken_[c].stretches);
       dispatch_items(taken_[c].stretches, 64);

@@ -45,6 +45,8 @@ class ClusterSelector {
   // The table must outlive the selector, and may grow to its capacity meanwhile.
   ClusterSelector(const ClusterTable& table, const Options& options);
 
+  // Has every pass run once, on a cloud of its own; forget() follows. See Method::warm_up().
+  void warm_up(const View& view, const FeedbackTarget& frame);
   // No point was drawn ever.
   void forget();
   // Every point is to be drawn again, though clusters go on with the points that come next.
@@ -99,7 +101,7 @@ class ClusterSelector {
   void rank(std::uint32_t budget);
   Result read_back();
 
-  const ClusterTable& table_;
+  const ClusterTable* table_;
   Options options_;
   DepthPyramid pyramid_;
   const FeedbackTarget* drawn_ = nullptr;  // in this view; null: nothing yet

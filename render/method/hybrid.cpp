@@ -9,6 +9,11 @@ void Hybrid::start_view(const View& view) {
   clusters_->start_view(view);
 }
 
+std::vector<DrawItem> Hybrid::warm_up(const View& view, const FeedbackTarget& frame) {
+  selector_.warm_up(view, frame);
+  return {};
+}
+
 Selection Hybrid::select(std::uint32_t budget) {
   Selection selection;
   if (budget == 0) return selection;

@@ -9,17 +9,21 @@
 
 namespace stipple {
 
-// Visible points are carried as vertices (S19). A cluster wholly behind what is drawn cannot change the picture of a
-// still view and is left out of it; the others take turns by how many pixels their points win, each drawing as many at
-// a time as it can cover pixels (T16). Clusters lie on the GPU, all of them or as many as there is room for.
+// Visible points are carried as vertices (S19), and while the view stands still they stay where they are. A cluster
+// wholly behind what is drawn cannot change the picture of a still view and is left out of it; the others take turns by
+// how many pixels their points win, each drawing as many at a time as it can cover pixels (T16). Clusters lie on the
+// GPU, all of them or as many as there is room for.
 class Hybrid final : public Method {
  public:
-  Hybrid(std::unique_ptr<ClusterSource> clusters, const ClusterSelector::Options& options)
-      : clusters_(std::move(clusters)), selector_(clusters_->table(), options) {}
+  // `keep_still` as in MethodOptions.
+  Hybrid(std::unique_ptr<ClusterSource> clusters, const ClusterSelector::Options& options, bool keep_still = true)
+      : clusters_(std::move(clusters)), selector_(clusters_->table(), options), keep_still_(keep_still) {}
 
   Carry carry() const override { return Carry::vertices; }
+  bool keeps_still_view() const override { return keep_still_; }
   void forget() override { selector_.forget(); }
   void start_view(const View&) override;
+  std::vector<DrawItem> warm_up(const View&, const FeedbackTarget&) override;
   Selection select(std::uint32_t budget) override;
   void frame_drawn(const FeedbackTarget& frame) override;
   bool finished() const override { return selected_ && open_ == 0 && clusters_->finished(); }
@@ -30,6 +34,7 @@ class Hybrid final : public Method {
  private:
   std::unique_ptr<ClusterSource> clusters_;
   ClusterSelector selector_;
+  bool keep_still_;
   SelectionCounts counts_;
   View view_;
   std::uint32_t open_ = 0;  // clusters with points left for this view

@@ -54,7 +54,7 @@ void IndexCarry::prepare(const FeedbackTarget& frame) {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   write_.use();
   dispatch_pixels(frame.size());
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
 void IndexCarry::append_items(std::vector<DrawItem>& items) const {

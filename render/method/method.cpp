@@ -48,7 +48,7 @@ std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions&
              cluster_bytes_for(points.size()) + ClusterSelector::bytes_for(clusters_for(points.size()), budget),
              options.limits);
   return std::make_unique<Hybrid>(std::make_unique<WholeCloud>(upload_clusters(points)),
-                                  selector_options(options, budget));
+                                  selector_options(options, budget), options.keep_still);
 }
 
 // GPU memory for the pool of a tree on disk, where no limit is given: 50 million points.
@@ -74,7 +74,7 @@ std::unique_ptr<Method> make_hybrid(const Dataset& dataset, const MethodOptions&
       std::make_unique<TreeClusters>(dataset.tree, dataset.colors, dataset.bytes_to_load,
                                      TreeClusters::Room{.slots = static_cast<std::uint32_t>(slots),
                                                         .points_ahead = options.limits.main / kBytesPerStreamedPoint}),
-      selector_options(options, budget));
+      selector_options(options, budget), options.keep_still);
 }
 
 // The pool has room for twice what a frame draws: what comes while the camera moves finds what goes.

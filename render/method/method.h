@@ -43,10 +43,15 @@ class Method {
   virtual ~Method() = default;
 
   virtual Carry carry() const = 0;
+  // Whether a frame of a still view goes on from the last one as it stands, instead of carrying it into an empty one.
+  virtual bool keeps_still_view() const { return false; }
   // Nothing is carried into the next frame: it starts from an empty target, as the first did.
   virtual void forget() {}
   // The view changed: every point may be worth drawing again.
   virtual void start_view(const View& view) = 0;
+  // Has each pass of its own run once, on the finished `frame` of `view`, whose block is bound, so that the driver's
+  // compiling stays outside of timed parts. Gives what is to be drawn for the same reason. forget() follows.
+  virtual std::vector<DrawItem> warm_up(const View&, const FeedbackTarget&) { return {}; }
   // The next points for this view, at most `budget`. Valid until the next call. The view block is bound.
   virtual Selection select(std::uint32_t budget) = 0;
   // The frame with the selected points is drawn, or one of another method that this one goes on from; the view block is
@@ -77,6 +82,7 @@ struct MethodOptions {
   MemoryLimits limits{};
   bool skip_occluded = true;   // hybrid: leave out clusters that are wholly hidden
   bool by_yield = true;        // hybrid: clusters whose points are seen go first
+  bool keep_still = true;      // hybrid: a frame of a still view adds to the last one
   bool carry_indices = false;  // unstructured: as S18, not as S19
 };
 

@@ -26,6 +26,7 @@ ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasteriz
 
 void ProgressiveRenderer::resize(const glm::ivec2& size) {
   for (auto& target : targets_) target.emplace(size, rasterizer_->depth_storage());
+  blank_ = true;
   vertices_.reset();
   if (method_->carry() == Carry::vertices) make_carry();
   method_->forget();
@@ -36,21 +37,12 @@ void ProgressiveRenderer::make_carry() {
   carry_room_ = pixels_of(current());
 }
 
-void ProgressiveRenderer::prepare_carry() {
-  if (!vertices_) return;
-  if (carry_room_ < pixels_of(current())) make_carry();
-  vertices_->prepare(current());
-}
-
 void ProgressiveRenderer::use(Method& method) {
   method_ = &method;
   method_->forget();
   if (!targets_[0]) return;
   vertices_.reset();
-  if (method_->carry() == Carry::vertices) {
-    make_carry();
-    prepare_carry();
-  }
+  if (method_->carry() == Carry::vertices) make_carry();
   if (view_.size == glm::ivec2(0)) return;
   if (method_->carry() == Carry::indices) method_->frame_drawn(current());
   view_drawn_ = false;
@@ -65,6 +57,8 @@ void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
       items.push_back(CarriedGrid{&previous()});
       break;
     case Carry::vertices:
+      if (carry_room_ < pixels_of(previous())) make_carry();
+      vertices_->prepare(previous());
       items.push_back(vertices_->vertices());
       break;
     case Carry::indices:
@@ -77,20 +71,20 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   GpuBuffer point(sizeof(PackedPoint));
   const PackedPoint black{glm::ivec3(0), 0xFF000000u};
   point.write(0, &black, sizeof black);
-  std::vector<DrawItem> items{PointRange{.points = &point, .count = 1}};
-  append_carry(items);
+  GpuBuffer zero(sizeof(std::uint32_t));
+  zero.fill(0);
+  const std::vector<DrawItem> items{PointRange{.points = &point, .count = 1},
+                                    PickedPoints{.points = &point, .ids = &zero, .places = &zero, .count = 1}};
   // The point lies in front of the eye, so that no pass ends early
   const View view{.eye = grid_.world_from_grid(glm::ivec3(0)) - glm::dvec3(0, 10, 0), .near = 1.0, .size = size};
   uniforms_.set(make_view_block(view, grid_, point_size_));
-  rasterizer_->draw(current(), items);
-  if (vertices_) {
-    vertices_->prepare(current());
-    // The second time the carried point is drawn, too
-    rasterizer_->draw(current(), items);
-    current().clear();
-    vertices_->prepare(current());
-  }
-  current().clear();
+  rasterizer_->draw(previous(), items);
+  std::vector<DrawItem> carried = method_->warm_up(view, previous());
+  append_carry(carried);
+  rasterizer_->draw(current(), carried);
+  if (method_->keeps_still_view()) rasterizer_->add(current(), items);
+  for (auto& target : targets_) target->clear();
+  blank_ = true;
   coverage_.count(current());
   method_->forget();
   view_ = {};
@@ -109,12 +103,17 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
 
   uniforms_.set(make_view_block(view, grid_, point_size_));
   Selection selection = method_->select(budget);
-  current_ = 1 - current_;
-  if (current().size() != view.size) targets_[current_].emplace(view.size, rasterizer_->depth_storage());
-  append_carry(selection.items);
-  rasterizer_->draw(current(), selection.items);
+  kept_ = view_drawn_ && method_->keeps_still_view();
+  if (kept_) {
+    rasterizer_->add(current(), selection.items);
+  } else {
+    current_ = 1 - current_;
+    if (current().size() != view.size) targets_[current_].emplace(view.size, rasterizer_->depth_storage());
+    if (!blank_) append_carry(selection.items);
+    rasterizer_->draw(current(), selection.items);
+  }
   method_->frame_drawn(current());
-  prepare_carry();
+  blank_ = false;
   view_drawn_ = true;
   return {selection.points, method_->finished()};
 }
@@ -128,7 +127,7 @@ std::uint64_t ProgressiveRenderer::covered_pixels() {
 }
 
 std::uint64_t ProgressiveRenderer::points_reprojected() {
-  return method_->carry() == Carry::none ? 0 : coverage_.count(previous());
+  return kept_ || method_->carry() == Carry::none ? 0 : coverage_.count(previous());
 }
 
 }  // namespace stipple

@@ -35,8 +35,9 @@ class ProgressiveRenderer {
   // as the new method does. The methods must draw the same points, with the same ids.
   void use(Method& method);
 
-  // Draws the next frame: the last one, of whatever size, reprojected into `view`, and at most `budget` more points. A
-  // converged, still view costs nothing. Commands are issued, not awaited.
+  // Draws the next frame: the last one, of whatever size, reprojected into `view` or, where the view is the same and
+  // the method likes it, as it stands; and at most `budget` more points. A converged, still view costs nothing.
+  // Commands are issued, not awaited.
   FrameReport draw(const View& view, std::uint32_t budget);
 
   // The last frame, on the GPU; null before the first. Valid until the next draw().
@@ -46,14 +47,13 @@ class ProgressiveRenderer {
   FrameData read();
   std::uint64_t covered_pixels();
 
-  // Pixels of the frame before the last, each drawn again as a point in the last: 0 for methods that carry nothing.
-  // Waits for the GPU.
+  // Pixels of the frame before the last, each drawn again as a point in the last: 0 where the last stood, and for
+  // methods that carry nothing. Waits for the GPU.
   std::uint64_t points_reprojected();
 
  private:
   void resize(const glm::ivec2& size);
   void make_carry();
-  void prepare_carry();
   void append_carry(std::vector<DrawItem>& items);
   FeedbackTarget& current() { return *targets_[current_]; }
   FeedbackTarget& previous() { return *targets_[1 - current_]; }
@@ -69,7 +69,9 @@ class ProgressiveRenderer {
   int carry_room_ = 0;  // pixels
   std::size_t current_ = 0;
   View view_;                // of size 0: none
+  bool blank_ = true;        // no frame was drawn yet
   bool view_drawn_ = false;  // whether the last frame shows view_
+  bool kept_ = false;        // the last frame is the one before and what was added to it
 };
 
 }  // namespace stipple

@@ -33,6 +33,15 @@ Unstructured::Unstructured(const PointSet& points, std::uint64_t seed, Carry car
   if (carry == Carry::indices && points.size() > 0) indices_.emplace(cloud_, slots_of(points, seed));
 }
 
+std::vector<DrawItem> Unstructured::warm_up(const View&, const FeedbackTarget& frame) {
+  std::vector<DrawItem> items;
+  if (indices_) {
+    indices_->prepare(frame);
+    indices_->append_items(items);
+  }
+  return items;
+}
+
 Selection Unstructured::select(std::uint32_t budget) {
   const std::size_t count = std::min<std::size_t>(budget, left_);
   const std::size_t before_end = std::min(count, cloud_.size() - cursor_);

@@ -24,6 +24,7 @@ class Unstructured final : public Method {
   }
   // The next stretch begins where the last ended, also for a new view.
   void start_view(const View&) override { left_ = cloud_.size(); }
+  std::vector<DrawItem> warm_up(const View&, const FeedbackTarget&) override;
   Selection select(std::uint32_t budget) override;
   void frame_drawn(const FeedbackTarget& frame) override {
     if (indices_) indices_->prepare(frame);

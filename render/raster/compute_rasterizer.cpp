@@ -6,9 +6,10 @@ namespace stipple {
 namespace {
 
 // Compiles the variants of a pass.
-auto compiler(bool splats) {
-  return [splats](std::vector<ShaderDefine> defines) {
+auto compiler(bool splats, bool over_picture = false) {
+  return [=](std::vector<ShaderDefine> defines) {
     if (splats) defines.push_back({"SPLATS"});
+    if (over_picture) defines.push_back({"OVER_PICTURE"});
     return Program::compute("raster_compute.glsl", defines);
   };
 }
@@ -35,19 +36,19 @@ void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> i
 
 ComputeRasterizer::ComputeRasterizer(bool splats)
     : depth_("PASS_DEPTH", compiler(splats)),
+      depth_over_picture_("PASS_DEPTH", compiler(splats, true)),
       claim_("PASS_CLAIM", compiler(splats)),
       repeat_("PASS_REPEAT", compiler(splats)) {}
 
-void ComputeRasterizer::draw(FeedbackTarget& target, std::span<const DrawItem> items) {
+void ComputeRasterizer::rasterize(FeedbackTarget& target, std::span<const DrawItem> items, bool over_picture) {
   constexpr GLbitfield kPixels = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
   constexpr GLbitfield kNotes = GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT;
-  target.clear();
   target.depth().bind_image(0, GL_READ_WRITE);
   target.ids().bind_image(1, GL_READ_WRITE);
   target.points().bind_image(2, GL_WRITE_ONLY);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 
-  dispatch_points(depth_, items);
+  dispatch_points(over_picture ? depth_over_picture_ : depth_, items);
   glMemoryBarrier(kPixels);
   notes_.begin();
   dispatch_points(claim_, items);

@@ -13,10 +13,12 @@ class ComputeRasterizer final : public Rasterizer {
   DepthStorage depth_storage() const override { return DepthStorage::image; }
   // Mesa's software renderer leaves a loop after 65,535 steps: 255 x 255 pixels.
   glm::dvec2 point_sizes() const override { return {0.0, 255.0}; }
-  void draw(FeedbackTarget& target, std::span<const DrawItem> items) override;
 
  private:
+  void rasterize(FeedbackTarget& target, std::span<const DrawItem> items, bool over_picture) override;
+
   SourcePrograms depth_;
+  SourcePrograms depth_over_picture_;
   SourcePrograms claim_;
   SourcePrograms repeat_;
   TieNotes notes_;

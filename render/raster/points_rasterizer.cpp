@@ -47,8 +47,7 @@ glm::dvec2 PointsRasterizer::point_sizes() const {
   return {range[0], range[1]};
 }
 
-void PointsRasterizer::draw(FeedbackTarget& target, std::span<const DrawItem> items) {
-  target.clear();
+void PointsRasterizer::rasterize(FeedbackTarget& target, std::span<const DrawItem> items, bool) {
   const std::array<const Texture2D*, 2> colors{&target.points(), &target.ids()};
   const Framebuffer all(colors, &target.depth());
   const Framebuffer depth_only({}, &target.depth());

@@ -12,9 +12,10 @@ class PointsRasterizer final : public Rasterizer {
   DepthStorage depth_storage() const override { return DepthStorage::attachment; }
   // What the driver does not clamp.
   glm::dvec2 point_sizes() const override;
-  void draw(FeedbackTarget& target, std::span<const DrawItem> items) override;
 
  private:
+  void rasterize(FeedbackTarget& target, std::span<const DrawItem> items, bool over_picture) override;
+
   SourcePrograms nearest_;
   SourcePrograms claim_;
   SourcePrograms repeat_;

@@ -73,7 +73,15 @@ class Rasterizer {
 
   // Clears the target and draws all items into it, in any order: among the points of a pixel the nearest wins, equal
   // depths go to the lowest id. The view block must be bound (ViewUniforms::set). Items must not read `target`.
-  virtual void draw(FeedbackTarget& target, std::span<const DrawItem> items) = 0;
+  void draw(FeedbackTarget& target, std::span<const DrawItem> items) {
+    target.clear();
+    rasterize(target, items, false);
+  }
+  // The same without clearing: the target shows points already, drawn with the same view block.
+  void add(FeedbackTarget& target, std::span<const DrawItem> items) { rasterize(target, items, true); }
+
+ private:
+  virtual void rasterize(FeedbackTarget& target, std::span<const DrawItem> items, bool over_picture) = 0;
 };
 
 // `splats`: the point size of the view block may differ from 1.

@@ -10,9 +10,20 @@ constexpr std::size_t kNotes = 65536;
 constexpr std::size_t kNoteBytes = 32;
 constexpr std::size_t kHeaderBytes = 32;
 
+// Units 0 and 1 are the last frame's.
+void bind_points(const GpuBuffer& points) {
+  points.bind_texels(4, GL_RGBA32I);
+}
+void bind_ids(const GpuBuffer& ids) {
+  ids.bind_texels(5, GL_R32UI);
+}
+void bind_places(const GpuBuffer& places) {
+  places.bind_texels(6, GL_R32UI);
+}
+
 void bind(const PointRange& range) {
-  range.points->bind_storage(0);
-  (range.ids ? range.ids : range.points)->bind_storage(1);
+  bind_points(*range.points);
+  if (range.ids) bind_ids(*range.ids);
   glUniform1ui(0, range.first);
   glUniform1ui(1, range.count);
   glUniform1ui(2, range.first_id - range.first);
@@ -20,8 +31,8 @@ void bind(const PointRange& range) {
 }
 
 void bind(const CarriedVertices& vertices) {
-  vertices.points->bind_storage(0);
-  vertices.ids->bind_storage(1);
+  bind_points(*vertices.points);
+  bind_ids(*vertices.ids);
   vertices.command->bind_storage(2);
   glUniform1ui(0, 0);
   glUniform1ui(2, 0);
@@ -34,18 +45,18 @@ void bind(const CarriedGrid& grid) {
 }
 
 void bind(const PickedPoints& picked) {
-  picked.points->bind_storage(0);
-  picked.ids->bind_storage(1);
-  picked.places->bind_storage(2);
+  bind_points(*picked.points);
+  bind_ids(*picked.ids);
+  bind_places(*picked.places);
   glUniform1ui(0, picked.first);
   glUniform1ui(1, picked.count);
   glUniform1i(3, 1);
 }
 
 void bind(const CarriedIndices& carried) {
-  carried.points->bind_storage(0);
-  carried.ids->bind_storage(1);
-  carried.places->bind_storage(2);
+  bind_points(*carried.points);
+  bind_ids(*carried.ids);
+  bind_places(*carried.places);
   carried.commands->bind_storage(4);
   glUniform1ui(0, carried.command);
   glUniform1i(3, 1);

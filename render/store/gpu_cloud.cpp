@@ -106,7 +106,7 @@ GpuCloud upload_shuffled(const PointSet& points, std::uint64_t seed) {
     glUniform1ui(3, prime ? static_cast<GLuint>(seed % prime) : 0);
     glUniform1i(5, points.ids.empty() ? 0 : 1);
     scatter(cloud, count, bound);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   }
   return cloud;
 }

@@ -48,7 +48,9 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
       .add_option(
           "--no-skip", options.no_skip,
           "What mode hybrid is to do without, to see what it is worth: occlusion (leaving out clusters that are "
-          "wholly hidden), yield (clusters whose points are seen go first), or both, separated by a comma.")
+          "wholly hidden), yield (clusters whose points are seen go first), still (adding to the last frame as it "
+          "stands while the view stays the same, where the published methods draw it anew), or several, separated "
+          "by commas.")
       ->delimiter(',');
 }
 
@@ -88,8 +90,10 @@ MethodOptions method_options_of(const DrawOptions& options) {
       method.skip_occluded = false;
     else if (name == "yield")
       method.by_yield = false;
+    else if (name == "still")
+      method.keep_still = false;
     else
-      throw UsageError(fmt::format("--no-skip {}: expected occlusion or yield", name));
+      throw UsageError(fmt::format("--no-skip {}: expected occlusion, yield or still", name));
   }
   return method;
 }

@@ -182,6 +182,7 @@ void run(const Options& options) {
              {"budget", budget_in_use(options, dataset)},
              {"skip_occluded", method.skip_occluded},
              {"by_yield", method.by_yield},
+             {"keep_still", method.keep_still},
              {"point_size", point_size},
              {"background", options.draw.background},
              {"edl", json_of(shading_of(options))},

@@ -60,6 +60,7 @@ Json settings_json(const StudySettings& settings) {
           {"gpu_memory_bytes", limit_json(settings.method.limits.gpu)},
           {"skip_occluded", settings.method.skip_occluded},
           {"by_yield", settings.method.by_yield},
+          {"keep_still", settings.method.keep_still},
           {"point_size", settings.point_size},
           {"background", fmt::format("{:06x}", settings.background)},
           {"color", settings.color},

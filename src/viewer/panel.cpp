@@ -15,7 +15,7 @@
 namespace stipple {
 namespace {
 
-constexpr float kWidth = 290.0f;  // of the panel, unscaled
+constexpr float kWidth = 310.0f;  // of the panel, unscaled
 
 void text(const std::string& line) {
   ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size());

@@ -90,6 +90,29 @@ TEST_P(HybridRasterizer, EveryOptionEndsWithTheSamePicture) {
           << occlusion << yield;
 }
 
+TEST_P(HybridRasterizer, AStillViewIsKeptOrDrawnAnewWithTheSameFrames) {
+  const Dataset& dataset = scene("city", 200'000);
+  const auto kept = make_method(Mode::hybrid, dataset.points, nullptr);
+  const auto anew = make_method(Mode::hybrid, dataset.points, nullptr, {.keep_still = false});
+  ProgressiveRenderer kept_renderer(*kept, GetParam(), dataset.points.grid);
+  ProgressiveRenderer anew_renderer(*anew, GetParam(), dataset.points.grid);
+  kept_renderer.warm_up({96, 54});
+  for (const char* name : {"oblique", "low"}) {
+    const View view = view_of(dataset, name, {96, 54});
+    std::uint64_t covered = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+      const FrameReport report = kept_renderer.draw(view, 10'000);
+      EXPECT_EQ(report.points_filled, anew_renderer.draw(view, 10'000).points_filled);
+      EXPECT_TRUE(same_picture(kept_renderer.read(), anew_renderer.read())) << name << frame;
+      if (frame > 0) {
+        EXPECT_EQ(kept_renderer.points_reprojected(), 0u);
+        EXPECT_EQ(anew_renderer.points_reprojected(), covered);
+      }
+      covered = kept_renderer.covered_pixels();
+    }
+  }
+}
+
 // Dense shells around the origin, seen from outside, inside and on them: much is hidden, and nothing by much.
 PointSet shells(std::mt19937& random) {
   std::normal_distribution<double> normal;

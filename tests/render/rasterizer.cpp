@@ -91,6 +91,46 @@ TEST_P(EachRasterizer, TiesGoToTheLowestIdEvenWhenThereAreMoreThanNotes) {
   }
 }
 
+// Part after part of the points, each added to the picture of those before.
+FrameData draw_in_parts(const PointSet& points, RasterizerKind kind, const View& view, std::uint32_t parts,
+                        double point_size) {
+  GpuBuffer all(points.size() * sizeof(PackedPoint));
+  all.write(0, std::span<const PackedPoint>(points.points));
+  GpuBuffer ids(points.size() * sizeof(std::uint32_t));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::uint32_t id = points.id(i);
+    ids.write(i * sizeof id, &id, sizeof id);
+  }
+  const auto rasterizer = make_rasterizer(kind, point_size != 1.0);
+  FeedbackTarget target(view.size, rasterizer->depth_storage());
+  ViewUniforms uniforms;
+  uniforms.set(make_view_block(view, points.grid, point_size));
+  const auto size = static_cast<std::uint32_t>(points.size());
+  for (std::uint32_t part = 0; part < parts; ++part) {
+    const std::uint32_t first = size / parts * part;
+    const std::uint32_t end = part + 1 == parts ? size : first + size / parts;
+    const DrawItem item = PointRange{.points = &all, .ids = &ids, .first = first, .count = end - first};
+    rasterizer->add(target, {&item, 1});
+  }
+  return target.read(view.near);
+}
+
+TEST_P(EachRasterizer, PartsAddUpToThePictureOfAll) {
+  const View view = front_view(3.0);
+  for (const double point_size : {1.0, 3.0}) {
+    const PointSet points = in_other_order(random_points(20'000, 700, 3), 5);
+    EXPECT_TRUE(same_picture(draw_in_parts(points, GetParam(), view, 7, point_size), draw(points, view, point_size)));
+  }
+}
+
+TEST_P(EachRasterizer, PartsOfEqualDepthAddUpToThePictureOfAll) {
+  std::vector<glm::ivec3> positions;
+  for (int i = 0; i < 4'000; ++i) positions.push_back({(i * 37) % 400, 100 * (i % 2), 0});
+  const PointSet points = in_other_order(points_at(positions), 6);
+  const View view = front_view(2.0);
+  EXPECT_TRUE(same_picture(draw_in_parts(points, GetParam(), view, 9, 1.0), draw(points, view)));
+}
+
 TEST_P(EachRasterizer, SplatsCoverTheirSquare) {
   EXPECT_EQ(draw(points_at({{0, 0, 0}}), front_view(2.0), 4.0).covered_pixels(), 16u);
 }
