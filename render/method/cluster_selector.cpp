@@ -212,11 +212,11 @@ std::vector<std::uint32_t> ClusterSelector::open_clusters() const {
 
 std::vector<SightedBox> ClusterSelector::boxes() const {
   using State = SightedBox::State;
-  std::vector<ClusterTable::Row> rows(table_.size);
-  std::vector<ClusterState> states(table_.size);
-  if (table_.size == 0) return {};
+  std::vector<ClusterTable::Row> rows(table_->size);
+  std::vector<ClusterState> states(table_->size);
+  if (table_->size == 0) return {};
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  table_.boxes.read(0, rows.data(), rows.size() * sizeof(ClusterTable::Row));
+  table_->boxes.read(0, rows.data(), rows.size() * sizeof(ClusterTable::Row));
   states_.read(0, states.data(), states.size() * sizeof(ClusterState));
   std::vector<SightedBox> boxes;
   for (std::size_t i = 0; i < rows.size(); ++i) {

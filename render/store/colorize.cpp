@@ -151,7 +151,7 @@ const Column* column_of(std::span<const Column> columns, std::string_view name) 
 
 // `column`: the map's attribute; null for height.
 void color_all(const ColorMap& map, std::span<const glm::ivec3> positions, const Column* column, std::size_t first,
-           std::span<PackedPoint> out) {
+               std::span<PackedPoint> out) {
   for (std::size_t i = 0; i < out.size(); ++i) out[i].position = positions[first + i];
   const auto value = [&](std::size_t i) {
     return column ? value_at(*column, first + i) : static_cast<double>(positions[first + i].z);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "src/viewer/wires.h"
 
@@ -71,6 +72,8 @@ void show_selection(const PanelFacts& facts, PanelWishes& wishes) {
   constexpr std::array kNames{"not begun", "streamed in part", "all drawn", "occluded"};
   for (std::size_t state = 0; state < kNames.size(); ++state)
     show_swatch(kBoxColors[state], fmt::format("{} {}", (*facts.box_counts)[state], kNames[state]).c_str());
+  if (std::reduce(facts.box_counts->begin(), facts.box_counts->end()) > kMostBoxes)
+    ImGui::TextDisabled("the nearest %zu are shown", kMostBoxes);
 }
 
 void show_comparison(const PanelFacts& facts, PanelWishes& wishes) {

@@ -48,8 +48,9 @@ void ReferencePainter::work() {
     Painted painted{*std::exchange(next_, std::nullopt), {}};
     painting_ = true;
     lock.unlock();
-    const auto& [points, view, size] = painted.subject;
-    painted.frame = arena.execute([&] { return render_reference(points->points, view, size); });
+    const Subject& subject = painted.subject;
+    painted.frame =
+        arena.execute([&] { return render_reference(subject.dataset->points, subject.view, subject.point_size); });
     lock.lock();
     painting_ = false;
     painted_ = std::move(painted);

@@ -103,7 +103,10 @@ void Viewer::lay_wires() {
       const std::vector<SightedBox> boxes = stage_.pane(side).boxes();
       if (side == Stage::left)
         for (const SightedBox& box : boxes) ++box_counts_[static_cast<std::size_t>(box.state)];
-      wires_[side] = wires_of(boxes, stage_.grid(), wanted_view());
+      const View next = wanted_view();
+      // The eye that the boxes were found from says which are the nearest
+      const glm::dvec3 eye = stage_.pane(side).frozen() ? frozen_view_.eye : next.eye;
+      wires_[side] = wires_of(boxes, stage_.grid(), eye, next);
     }
     if (!stage_.pane(side).frozen()) continue;
     const std::vector<WireEnd> camera = wires_of(frozen_view_, frozen_reach_, wanted_view());

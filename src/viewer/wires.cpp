@@ -30,9 +30,10 @@ void append_box(const WorldBox& box, const View& view, std::uint32_t rgba, std::
 
 }  // namespace
 
-std::vector<WireEnd> wires_of(std::vector<SightedBox> boxes, const Grid& grid, const View& view) {
+std::vector<WireEnd> wires_of(std::vector<SightedBox> boxes, const Grid& grid, const glm::dvec3& eye,
+                              const View& view) {
   const auto nearer = [&](const SightedBox& a, const SightedBox& b) {
-    return nearest_distance(view.eye, world_box(grid, a.box)) < nearest_distance(view.eye, world_box(grid, b.box));
+    return nearest_distance(eye, world_box(grid, a.box)) < nearest_distance(eye, world_box(grid, b.box));
   };
   if (boxes.size() > kMostBoxes) {
     std::ranges::nth_element(boxes, boxes.begin() + kMostBoxes, nearer);

@@ -28,9 +28,9 @@ static_assert(sizeof(WireEnd) == 32);
 // Of each state as PackedPoint::rgba, in the order of SightedBox::State.
 inline constexpr std::array<std::uint32_t, 4> kBoxColors{0xFFA0A0A0u, 0xFF40C8FFu, 0xFF70D060u, 0xFF4848E8u};
 
-// The twelve edges of each box; of more than kMostBoxes those nearest to the eye.
+// The twelve edges of each box; of more than kMostBoxes those nearest to `eye`.
 inline constexpr std::size_t kMostBoxes = 5'000;
-std::vector<WireEnd> wires_of(std::vector<SightedBox> boxes, const Grid& grid, const View& view);
+std::vector<WireEnd> wires_of(std::vector<SightedBox> boxes, const Grid& grid, const glm::dvec3& eye, const View& view);
 // What `seen` sees up to `depth` world units away, as `view` sees it from elsewhere.
 std::vector<WireEnd> wires_of(const View& seen, double depth, const View& view);
 
