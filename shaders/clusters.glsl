@@ -69,5 +69,5 @@ struct Totals {
   uint open;       // clusters with points left after it
   int cut;         // clusters above this urgency are taken whole, those of it as far as `allowance` goes
   uint allowance;
-  uint factor;     // of what each asks for, where that is less than the budget
+  float factor;    // of what each asks for, where that is less than the budget
 };

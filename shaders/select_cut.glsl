@@ -1,5 +1,5 @@
-// One invocation: the budget goes to the most urgent clusters. Where all of them ask for less, each gets several times what
-// it asks for.
+// One invocation: the budget goes to the most urgent clusters. Where all of them ask for less, each gets more than
+// that in proportion.
 #include "clusters.glsl"
 layout(local_size_x = 1) in;
 
@@ -16,6 +16,5 @@ void main() {
   }
   totals.cut = urgency;
   totals.allowance = left;
-  // At most 2^15 of wishes below 2^17 fit 32 bits
-  totals.factor = urgency < 0 ? min(budget / max(budget - left, 1u), 32768u) : 1u;
+  totals.factor = urgency < 0 ? float(budget) / float(max(budget - left, 1u)) : 1.0;
 }

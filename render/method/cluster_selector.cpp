@@ -17,7 +17,8 @@ struct Stretch {
 struct Totals {
   std::uint32_t points, stretches, open;
   std::int32_t cut;
-  std::uint32_t allowance, factor;
+  std::uint32_t allowance;
+  float factor;
 };
 struct Sight {
   std::uint32_t visible, occluded;
@@ -330,7 +331,7 @@ void ClusterSelector::learn(const FeedbackTarget& frame) {
       table_->chunks[c].ids.bind_storage(1);
       glUniform1ui(0, taken_[c].first_stretch);
       glUniform1ui(1, taken_[c].first_stretch + taken_[c].stretches);
-      dispatch_items(taken_[c].stretches, 64);
+      dispatch_items((taken_[c].stretches + 1) / 2, 64);
     }
   }
   if (options_.skip_occluded) pyramid_.build(frame);
