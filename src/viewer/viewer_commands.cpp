@@ -178,10 +178,13 @@ void Viewer::hide_class() {
       note_ = values.empty() ? "its attributes are being read" : "the points have no class";
       return;
     }
-    const auto number = static_cast<std::size_t>(std::stod(value->second));
-    if (number >= choice.hidden.size()) return;
-    choice.hidden.set(number);
-    note_ = fmt::format("class {} {} is hidden", number, class_name(static_cast<int>(number)));
+    const double number = std::stod(value->second);
+    if (!(number >= 0.0 && number < static_cast<double>(choice.hidden.size()))) {
+      note_ = fmt::format("{} is no LAS class", value->second);
+      return;
+    }
+    choice.hidden.set(static_cast<std::size_t>(number));
+    note_ = fmt::format("class {} {} is hidden", value->second, class_name(static_cast<int>(number)));
     picks_.clear();
   }
   reopen(choice);
