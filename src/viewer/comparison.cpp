@@ -24,29 +24,29 @@ Texture2D texture_of(const FrameData& frame) {
 
 }  // namespace
 
-std::string_view name_of(Comparison::Shown shown) {
-  return shown == Comparison::Shown::picture      ? "picture"
-         : shown == Comparison::Shown::difference ? "difference"
-                                                  : "reference";
+std::string_view name_of(ReferenceComparison::Shown shown) {
+  return shown == ReferenceComparison::Shown::picture      ? "picture"
+         : shown == ReferenceComparison::Shown::difference ? "difference"
+                                                           : "reference";
 }
 
-void Comparison::turn() {
+void ReferenceComparison::turn() {
   shown_ = shown_ == Shown::picture      ? Shown::difference
            : shown_ == Shown::difference ? Shown::reference
                                          : Shown::picture;
 }
 
-void Comparison::begin_view(double now) {
+void ReferenceComparison::begin_view(double now) {
   view_start_ = now;
   for (Side& side : sides_) side.curve.clear();
 }
 
-void Comparison::rest(const ReferencePainter::Subject& subject) {
+void ReferenceComparison::rest(const ReferencePainter::Subject& subject) {
   asked_ = subject;
   painter_.ask(subject);
 }
 
-bool Comparison::take() {
+bool ReferenceComparison::take() {
   auto painted = painter_.take();
   if (!painted) return false;
   reference_ = texture_of(painted->frame);
@@ -55,12 +55,12 @@ bool Comparison::take() {
   return true;
 }
 
-const Texture2D* Comparison::reference_of(const View& view) const {
+const Texture2D* ReferenceComparison::reference_of(const View& view) const {
   return subject_ && subject_ == asked_ && subject_->view == view ? &reference_ : nullptr;
 }
 
-const Texture2D& Comparison::compare(std::size_t index, const FeedbackTarget& frame, std::uint64_t number,
-                                     std::uint32_t background, double now) {
+const Texture2D& ReferenceComparison::compare(std::size_t index, const FeedbackTarget& frame, std::uint64_t number,
+                                              std::uint32_t background, double now) {
   Side& side = sides_[index];
   if (!program_) program_ = Program::compute("difference.glsl");
   if (side.colors.size() != frame.size()) side.colors = Texture2D(GL_R32UI, frame.size());

@@ -14,7 +14,7 @@
 
 namespace stipple {
 
-class Comparison {
+class ReferenceComparison {
  public:
   enum class Shown { picture, difference, reference };
   // A frame and its error.
@@ -66,6 +66,6 @@ class Comparison {
 };
 
 // "picture", "difference", "reference".
-std::string_view name_of(Comparison::Shown shown);
+std::string_view name_of(ReferenceComparison::Shown shown);
 
 }  // namespace stipple

@@ -43,7 +43,7 @@ struct PanelFacts {
   EyeDomeOptions eye_dome;
   std::optional<int> divider;  // column of the picture, where two sides are seen
   bool right_alone = false;    // of two sides
-  const Comparison& comparison;
+  const ReferenceComparison& comparison;
   std::optional<std::array<std::size_t, 4>> box_counts;  // by SightedBox::State, where boxes are shown
   const std::optional<std::array<std::string, 3>>& under_cursor;
   std::span<const std::vector<std::string>> recent;  // inputs opened before

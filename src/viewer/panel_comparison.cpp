@@ -12,7 +12,7 @@
 namespace stipple {
 namespace {
 
-using Shown = Comparison::Shown;
+using Shown = ReferenceComparison::Shown;
 
 // What a curve's top means, in dB: of converged pictures all but a few pixels are those of the reference.
 constexpr double kHighest = 80.0;
@@ -33,7 +33,7 @@ void show_swatch(ImU32 color, const char* what) {
 }
 
 // Time to the right, from the view's begin on; the error upwards.
-void plot_curves(const Comparison& comparison) {
+void plot_curves(const ReferenceComparison& comparison) {
   double longest = 0.1;
   for (const std::size_t side : {0u, 1u})
     if (!comparison.curve(side).empty()) longest = std::max(longest, comparison.curve(side).back().seconds);
@@ -51,7 +51,7 @@ void plot_curves(const Comparison& comparison) {
   }
   for (const std::size_t side : {0u, 1u}) {
     std::vector<ImVec2> line;
-    for (const Comparison::Sample& sample : comparison.curve(side))
+    for (const ReferenceComparison::Sample& sample : comparison.curve(side))
       line.push_back({at.x + size.x * static_cast<float>(sample.seconds / longest), height_of(sample.psnr_db)});
     if (line.size() == 1) line.push_back({at.x + size.x, line.front().y});
     list.AddPolyline(line.data(), static_cast<int>(line.size()), kSideColors[side], ImDrawFlags_None, 1.5f);
@@ -77,7 +77,7 @@ void show_selection(const PanelFacts& facts, PanelWishes& wishes) {
 }
 
 void show_comparison(const PanelFacts& facts, PanelWishes& wishes) {
-  const Comparison& comparison = facts.comparison;
+  const ReferenceComparison& comparison = facts.comparison;
   for (const Shown shown : {Shown::picture, Shown::difference, Shown::reference}) {
     if (shown != Shown::picture) ImGui::SameLine();
     if (!ImGui::RadioButton(std::string(name_of(shown)).c_str(), comparison.shown() == shown)) continue;
@@ -92,7 +92,7 @@ void show_comparison(const PanelFacts& facts, PanelWishes& wishes) {
     show_swatch(IM_COL32(40, 210, 230, 255), "a point where none should be");
   }
   for (const Stage::Side side : {Stage::left, Stage::right}) {
-    const Comparison::Curve& curve = comparison.curve(side);
+    const ReferenceComparison::Curve& curve = comparison.curve(side);
     const auto& mode = facts.stage.pane(side).mode();
     if (curve.empty() || !mode || (side == Stage::right && !facts.stage.is_split())) continue;
     show_swatch(kSideColors[side], fmt::format("{}: {}", name_of(*mode), decibels(curve.back().psnr_db)).c_str());

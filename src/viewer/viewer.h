@@ -87,7 +87,7 @@ class Viewer {
   // At which the right side begins.
   int divider_column() const { return divider_column(size_.x); }
   std::uint64_t frames_shown() const { return frames_shown_; }
-  const Comparison& comparison() const { return comparison_; }
+  const ReferenceComparison& comparison() const { return comparison_; }
   const std::string& note() const { return note_; }
 
  private:
@@ -178,7 +178,7 @@ class Viewer {
   std::array<std::size_t, 4> box_counts_{};    // of the left side, by state
   View frozen_view_;                           // when the stage was frozen
   double frozen_reach_ = 1.0;                  // how far its pyramid is drawn, world units
-  Comparison comparison_;
+  ReferenceComparison comparison_;
   std::array<const Texture2D*, 2> differences_{};  // of the sides, where they are to be shown
 
   std::optional<BudgetController> controller_;

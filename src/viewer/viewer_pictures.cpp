@@ -44,7 +44,7 @@ Display::Scene Viewer::scene(int width) const {
   if (!differences_[Stage::left]) return scene;
   scene.packed = {differences_[Stage::left], differences_[Stage::right]};
   if (scene.left == stage_.frame(Stage::right)) scene.packed[0] = differences_[Stage::right];
-  if (comparison_.shown() == Comparison::Shown::reference) {
+  if (comparison_.shown() == ReferenceComparison::Shown::reference) {
     scene.packed[0] = comparison_.reference_of(wanted_view());
     scene.right = nullptr;
   }

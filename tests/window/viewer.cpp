@@ -342,12 +342,12 @@ TEST_F(ViewerWindow, ShowsWhereAndHowMuchThePictureDiffersFromTheReference) {
   ASSERT_TRUE(complete());
   const Image picture = viewer_->picture();
   display().press("g");
-  const Comparison& comparison = viewer_->comparison();
+  const ReferenceComparison& comparison = viewer_->comparison();
   ASSERT_TRUE(until([&] { return comparison.reference_of(viewer_->view()) && viewer_->at_rest(); }));
   EXPECT_NE(viewer_->picture().rgb, picture.rgb);
   display().press("g");
   steps(5);
-  ASSERT_EQ(comparison.shown(), Comparison::Shown::reference);
+  ASSERT_EQ(comparison.shown(), ReferenceComparison::Shown::reference);
   const Image reference = viewer_->picture();
   ASSERT_FALSE(comparison.curve(Stage::left).empty());
   EXPECT_DOUBLE_EQ(comparison.curve(Stage::left).back().psnr_db, psnr_db(mean_squared_error(picture, reference)));
@@ -359,10 +359,10 @@ TEST_F(ViewerWindow, ShowsWhereAndHowMuchThePictureDiffersFromTheReference) {
   display().press("n");
   ASSERT_TRUE(complete());
   for (const auto side : {Stage::left, Stage::right}) {
-    const Comparison::Curve& curve = comparison.curve(side);
+    const ReferenceComparison::Curve& curve = comparison.curve(side);
     ASSERT_FALSE(curve.empty());
     EXPECT_DOUBLE_EQ(curve.back().psnr_db, psnr_db(mean_squared_error(picture, reference)));
-    EXPECT_TRUE(std::ranges::is_sorted(curve, {}, &Comparison::Sample::seconds));
+    EXPECT_TRUE(std::ranges::is_sorted(curve, {}, &ReferenceComparison::Sample::seconds));
   }
 
   // Another view has another reference, in its time
