@@ -1,11 +1,19 @@
-// A finished frame's colours, stretched to the picture; with SPLIT those of two frames, left and right of a divider.
+// A finished frame's colours, stretched to the picture; with SPLIT those of two frames, left and right of a divider. With PACKED
+// they come from a pass over the frame (eye_dome.glsl, say), 0 where no point is.
 #include "packing.glsl"
 
-layout(binding = 0) uniform isampler2D points;
-layout(binding = 1) uniform usampler2D ids;
+#ifdef PACKED
+layout(binding = 0) uniform usampler2D left;
 #ifdef SPLIT
-layout(binding = 2) uniform isampler2D right_points;
+layout(binding = 2) uniform usampler2D right;
+#endif
+#else
+layout(binding = 0) uniform isampler2D left;  // points
+layout(binding = 1) uniform usampler2D left_ids;
+#ifdef SPLIT
+layout(binding = 2) uniform isampler2D right;
 layout(binding = 3) uniform usampler2D right_ids;
+#endif
 #endif
 layout(location = 0) uniform vec3 background;
 layout(location = 1) uniform ivec2 size;       // of the picture
@@ -14,20 +22,33 @@ layout(location = 3) uniform int divider;      // first column of the right fram
 
 layout(location = 0) out vec4 color;
 
-vec3 color_at(isampler2D frame_points, usampler2D frame_ids, ivec2 pixel) {
-  pixel = pixel * textureSize(frame_ids, 0) / size;
-  if (texelFetch(frame_ids, pixel, 0).x == kNoPoint) return background;
-  return vec3((ivec3(texelFetch(frame_points, pixel, 0).w) >> ivec3(0, 8, 16)) & 255) / 255.0;
+vec4 unpacked(uint rgba) { return vec4(vec3((uvec3(rgba) >> uvec3(0, 8, 16)) & 255u) / 255.0, 1.0); }
+
+#ifdef PACKED
+vec4 color_at(usampler2D colors, ivec2 pixel) {
+  uint rgba = texelFetch(colors, pixel * textureSize(colors, 0) / size, 0).x;
+  return rgba == 0u ? vec4(background, 1.0) : unpacked(rgba);
 }
+#define LEFT left
+#define RIGHT right
+#else
+vec4 color_at(isampler2D points, usampler2D ids, ivec2 pixel) {
+  pixel = pixel * textureSize(ids, 0) / size;
+  if (texelFetch(ids, pixel, 0).x == kNoPoint) return vec4(background, 1.0);
+  return unpacked(uint(texelFetch(points, pixel, 0).w));
+}
+#define LEFT left, left_ids
+#define RIGHT right, right_ids
+#endif
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   if (upside_down) pixel.y = size.y - 1 - pixel.y;
 #ifdef SPLIT
   if (pixel.x >= divider) {
-    color = vec4(color_at(right_points, right_ids, pixel), 1.0);
+    color = color_at(RIGHT, pixel);
     return;
   }
 #endif
-  color = vec4(color_at(points, ids, pixel), 1.0);
+  color = color_at(LEFT, pixel);
 }

@@ -59,6 +59,8 @@ bool fetch_point(uint i, out ivec4 point, out uint id) {
   if (i >= source_count()) return false;
   uint place = place_of(i);
   point = texelFetch(source_points, int(place));
+  // The uppermost bit of an opaque colour; a point of none is not to be seen
+  if (point.w >= 0) return false;
   id = source_has_ids ? texelFetch(source_ids, int(place)).x : source_id_shift + place;
   return true;
 }

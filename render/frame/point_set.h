@@ -13,7 +13,8 @@ namespace stipple {
 // The id that stands for "no point".
 inline constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
 
-// 16 bytes, on the GPU as here. rgba: red in the lowest byte, alpha (255) in the highest.
+// 16 bytes, on the GPU as here. rgba: red in the lowest byte, alpha in the highest: 255, or 0 for a point that is not
+// drawn.
 struct PackedPoint {
   glm::ivec3 position;
   std::uint32_t rgba;

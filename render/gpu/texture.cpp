@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "octree/core/error.h"
@@ -22,6 +24,22 @@ Texture2D::Texture2D(GLenum format, const glm::ivec2& size) : format_(format), s
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+// In bands of rows: OpenGL counts the bytes of one call in 31 bits, less than a picture of 16384x16384 has.
+void read_texture(const Texture2D& texture, GLenum format, GLenum type, std::size_t pixel_bytes, void* out) {
+  constexpr std::size_t kBandBytes = 8u << 20;
+  const glm::ivec2 size = texture.size();
+  const std::size_t row_bytes = static_cast<std::size_t>(size.x) * pixel_bytes;
+  const int rows = static_cast<int>(std::max<std::size_t>(1, kBandBytes / row_bytes));
+  auto* place = static_cast<std::byte*>(out);
+  for (int y = 0; y < size.y; y += rows) {
+    const int count = std::min(rows, size.y - y);
+    const std::size_t bytes = row_bytes * static_cast<std::size_t>(count);
+    glGetTextureSubImage(texture.name(), 0, 0, y, 0, size.x, count, 1, format, type, static_cast<GLsizei>(bytes),
+                         place);
+    place += bytes;
+  }
 }
 
 Framebuffer::Framebuffer(std::span<const Texture2D* const> colors, const Texture2D* depth) {

@@ -1,6 +1,7 @@
 // Two-dimensional textures and framebuffers made of them.
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -28,6 +29,9 @@ class Texture2D {
   GLenum format_ = GL_NONE;
   glm::ivec2 size_{0};
 };
+
+// Copies the texture to main memory, row 0 first: `out` has room for pixel_bytes a pixel. Waits for the GPU.
+void read_texture(const Texture2D& texture, GLenum format, GLenum type, std::size_t pixel_bytes, void* out);
 
 // Colour attachments 0, 1, ... and an optional depth attachment. Does not own the textures. Move-only.
 class Framebuffer {

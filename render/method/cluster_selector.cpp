@@ -28,6 +28,7 @@ struct ChunkBegin {
 };
 constexpr std::uint32_t kOutside = 0;
 constexpr std::uint32_t kOpen = 1;
+constexpr std::uint32_t kOccluded = 2;
 constexpr std::size_t kUrgencies = 1024;
 constexpr std::size_t kSummaryHead = sizeof(Totals) + ClusterTable::kMostChunks * sizeof(ChunkBegin);
 
@@ -208,6 +209,26 @@ std::vector<std::uint32_t> ClusterSelector::open_clusters() const {
   std::vector<std::uint32_t> clusters(selected_ ? open_ : 0);
   if (!clusters.empty()) open_clusters_.read(0, clusters.data(), clusters.size() * sizeof(std::uint32_t));
   return clusters;
+}
+
+std::vector<SightedBox> ClusterSelector::boxes() const {
+  using State = SightedBox::State;
+  std::vector<ClusterTable::Row> rows(table_->size);
+  std::vector<ClusterState> states(table_->size);
+  if (table_->size == 0) return {};
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  table_->boxes.read(0, rows.data(), rows.size() * sizeof(ClusterTable::Row));
+  states_.read(0, states.data(), states.size() * sizeof(ClusterState));
+  std::vector<SightedBox> boxes;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].count == 0 || states[i].status == kOutside) continue;
+    const State state = states[i].drawn >= rows[i].count ? State::complete
+                        : states[i].status == kOccluded  ? State::occluded
+                        : states[i].drawn > 0            ? State::streamed
+                                                         : State::waiting;
+    boxes.push_back({{rows[i].low, rows[i].high}, state});
+  }
+  return boxes;
 }
 
 std::vector<bool> ClusterSelector::hidden(std::span<const GridBox> boxes) {

@@ -8,6 +8,7 @@
 
 #include "render/frame/camera.h"
 #include "render/frame/depth_pyramid.h"
+#include "render/method/sighted_box.h"
 #include "render/store/cluster_table.h"
 
 namespace stipple {
@@ -63,6 +64,8 @@ class ClusterSelector {
   // Which of these boxes are certainly hidden behind what is drawn in this view, or outside of it; sees_depth() must
   // hold. Waits for the GPU.
   std::vector<bool> hidden(std::span<const GridBox> boxes);
+  // The clusters in sight. Waits for the GPU.
+  std::vector<SightedBox> boxes() const;
   // Whether hidden() can tell: something was drawn in this view.
   bool sees_depth() const { return drawn_ && options_.skip_occluded; }
 

@@ -29,6 +29,7 @@ SelectionCounts Hierarchical::counts() const {
 void Hierarchical::start_view(const View& view) {
   counts_ = {};
   readings_.clear();
+  done_.clear();
   next_ = 0;
   to_request_ = 0;
   under_way_ = 0;
@@ -57,7 +58,11 @@ void Hierarchical::take_discovered() {
 }
 
 void Hierarchical::next_round() {
-  std::erase_if(readings_, [](const Reading& reading) { return reading.requested == reading.count; });
+  std::erase_if(readings_, [this](const Reading& reading) {
+    const bool done = reading.requested == reading.count;
+    if (done) done_.push_back(reading.handle);
+    return done;
+  });
   for (Reading& reading : readings_)
     reading.allowed = reading.allowed < reading.count / 2 ? 2 * reading.allowed : reading.count;
   next_ = 0;
@@ -75,6 +80,19 @@ void Hierarchical::request_up_to(std::uint64_t under_way) {
     to_request_ -= count;
     if (reading.requested == reading.allowed) ++next_;
   }
+}
+
+std::vector<SightedBox> Hierarchical::boxes() const {
+  using State = SightedBox::State;
+  std::vector<SightedBox> boxes;
+  for (const Reading& reading : readings_) {
+    const State state = reading.requested == reading.count ? State::complete
+                        : reading.requested > 0            ? State::streamed
+                                                           : State::waiting;
+    boxes.push_back({supply_->box(reading.handle), state});
+  }
+  for (const std::uint32_t handle : done_) boxes.push_back({supply_->box(handle), State::complete});
+  return boxes;
 }
 
 Selection Hierarchical::select(std::uint32_t budget) {

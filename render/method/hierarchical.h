@@ -27,6 +27,7 @@ class Hierarchical final : public Method {
   Selection select(std::uint32_t budget) override;
   bool finished() const override { return to_request_ == 0 && under_way_ == 0 && !supply_->searching(); }
   SelectionCounts counts() const override;
+  std::vector<SightedBox> boxes() const override;
 
  private:
   struct Reading {
@@ -46,11 +47,12 @@ class Hierarchical final : public Method {
   std::unique_ptr<PointSupply> supply_;
   StreamBuffer stream_;
   PointSize point_size_;
-  SelectionCounts counts_;         // of this view's clusters
-  std::vector<Reading> readings_;  // front to back
-  std::size_t next_ = 0;           // reading to go on with in this round
-  std::uint64_t to_request_ = 0;   // points not requested yet for this view
-  std::uint64_t under_way_ = 0;    // points requested and not drawn yet
+  SelectionCounts counts_;           // of this view's clusters
+  std::vector<Reading> readings_;    // front to back
+  std::vector<std::uint32_t> done_;  // handles of clusters whose points are all requested
+  std::size_t next_ = 0;             // reading to go on with in this round
+  std::uint64_t to_request_ = 0;     // points not requested yet for this view
+  std::uint64_t under_way_ = 0;      // points requested and not drawn yet
 };
 
 }  // namespace stipple

@@ -31,6 +31,8 @@ class Hybrid final : public Method {
   bool finished() const override { return selected_ && open_ == 0 && clusters_->finished(); }
   SelectionCounts counts() const override;
   std::optional<std::vector<ColoredPoints>> colored() const override { return clusters_->colored(); }
+  // Of a tree on disk, those that are on the GPU.
+  std::vector<SightedBox> boxes() const override { return selected_ ? selector_.boxes() : std::vector<SightedBox>{}; }
 
  private:
   std::unique_ptr<ClusterSource> clusters_;

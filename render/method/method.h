@@ -12,6 +12,7 @@
 #include "octree/select/density.h"
 #include "render/frame/camera.h"
 #include "render/frame/point_size.h"
+#include "render/method/sighted_box.h"
 #include "render/raster/rasterizer.h"
 #include "render/store/cluster_cut.h"
 #include "render/store/color_upload.h"
@@ -82,6 +83,8 @@ class Method {
   // The points on the GPU that it draws from, all of them: new colours may be painted on them (ColorUpload). Nothing:
   // what it draws comes from elsewhere.
   virtual std::optional<std::vector<ColoredPoints>> colored() const { return std::nullopt; }
+  // Those in sight; none where the method knows none. May wait for the GPU.
+  virtual std::vector<SightedBox> boxes() const { return {}; }
 };
 
 enum class Mode { brute_force, hierarchical, unstructured, hybrid, lod, subsample };

@@ -96,10 +96,13 @@ void ProgressiveRenderer::append_vertices(std::vector<DrawItem>& items) {
 
 void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   if (!targets_[0] || size != current().size()) resize(size);
-  GpuBuffer zeros(sizeof(PackedPoint));
-  zeros.fill(0);
-  const std::vector<DrawItem> items{PointRange{.points = &zeros, .count = 1},
-                                    PickedPoints{.points = &zeros, .ids = &zeros, .places = &zeros, .count = 1}};
+  GpuBuffer point(sizeof(PackedPoint));
+  const PackedPoint black{glm::ivec3(0), 0xFF000000u};
+  point.write(0, &black, sizeof black);
+  GpuBuffer zero(sizeof(std::uint32_t));
+  zero.fill(0);
+  const std::vector<DrawItem> items{PointRange{.points = &point, .count = 1},
+                                    PickedPoints{.points = &point, .ids = &zero, .places = &zero, .count = 1}};
   // The point lies in front of the eye, so that no pass ends early
   const View view{.eye = grid_.world_from_grid(glm::ivec3(0)) - glm::dvec3(0, 10, 0), .near = 1.0, .size = size};
   uniforms_.set(make_view_block(view, grid_, point_size_));

@@ -139,6 +139,7 @@ void draw_range(const PointSet& set, const View& view, const Projection& project
     const std::size_t count = std::min(kBatch, end - first);
     projection.project(set.points.data() + first, count, batch);
     for (std::size_t i = 0; i < count; ++i) {
+      if (set.points[first + i].rgba >> 24 == 0) continue;
       const double x = batch.x[i];
       const double y = batch.y[i];
       const double depth = batch.depth[i];

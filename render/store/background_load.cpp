@@ -13,7 +13,7 @@ struct Stopped {};
 
 }  // namespace
 
-BackgroundLoad::BackgroundLoad(const PointSource& source, std::string color)
+BackgroundLoad::BackgroundLoad(const PointSource& source, ColorChoice color)
     : source_(source), color_(std::move(color)), total_(static_cast<std::size_t>(source.info().point_count)) {}
 
 BackgroundLoad::~BackgroundLoad() {
@@ -40,11 +40,12 @@ void BackgroundLoad::start() {
 
 void BackgroundLoad::read() {
   const auto start = std::chrono::steady_clock::now();
-  load_cloud(source_, attributes_for_color(color_), cloud_,
+  const ColorMap unstretched = color_.complete({.attribute = color_.attribute});
+  load_cloud(source_, attribute_names_of(unstretched, source_.info().schema), cloud_,
              [this](std::uint64_t first, std::size_t count) { arrived(first, count); });
   auto dataset = std::make_shared<Dataset>();
   dataset->info = cloud_.info;
-  dataset->colors = map_colors(cloud_, color_);
+  dataset->colors = color_.complete(map_colors(cloud_, color_.attribute));
   dataset->points = make_point_set(cloud_, dataset->colors);
   dataset->load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::lock_guard lock(mutex_);
@@ -98,7 +99,7 @@ void BackgroundLoad::choose_colors(const Range& range) {
     copy.resize(range.count);
     std::memcpy(copy.bytes.data(), column.bytes.data() + range.first * stride, copy.bytes.size());
   }
-  colors_ = map_colors(some, color_);
+  colors_ = color_.complete(map_colors(some, color_.attribute));
 }
 
 PointArrivals::Batch BackgroundLoad::take(std::size_t most) {
@@ -117,8 +118,7 @@ PointArrivals::Batch BackgroundLoad::take(std::size_t most) {
   if (taken.count == 0) return {};
   if (!colors_) choose_colors(taken);
   packed_.resize(taken.count);
-  pack_points(*colors_, cloud_.positions, cloud_.find(colors_->attribute), static_cast<std::size_t>(taken.first),
-              packed_);
+  pack_points(*colors_, cloud_.positions, cloud_.columns, static_cast<std::size_t>(taken.first), packed_);
   return {static_cast<std::uint32_t>(taken.first), packed_};
 }
 

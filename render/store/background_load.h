@@ -17,8 +17,8 @@ namespace stipple {
 // first batch. But for start(), take() and whole() functions may be called at any time; all by one thread.
 class BackgroundLoad final : public PointArrivals {
  public:
-  // `source` must outlive it; `color` as choose_color() gives it.
-  BackgroundLoad(const PointSource& source, std::string color);
+  // `source` must outlive it; the attribute as choose_color() gives it.
+  BackgroundLoad(const PointSource& source, ColorChoice color);
   // Ends the reading.
   ~BackgroundLoad() override;
   BackgroundLoad(const BackgroundLoad&) = delete;
@@ -48,7 +48,7 @@ class BackgroundLoad final : public PointArrivals {
   void choose_colors(const Range& range);
 
   const PointSource& source_;
-  std::string color_;
+  ColorChoice color_;
   std::size_t total_;
   std::optional<ColorMap> colors_;
   Buffer<PackedPoint> packed_;  // what take() gave

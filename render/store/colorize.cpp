@@ -22,9 +22,47 @@ constexpr std::uint32_t pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) 
   return r | g << 8 | b << 16 | 0xFF000000u;
 }
 
-// Dark blue to yellow, even steps of lightness.
-constexpr std::array<glm::vec3, 6> kRamp{
+// Evenly spaced stops of the published tables, between which colours are mixed: viridis, magma and plasma (Smith, van
+// der Walt 2015), cividis (Nunez, Anderton, Renslow 2018).
+constexpr std::array<glm::vec3, 6> kViridis{
     {{68, 1, 84}, {65, 68, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81}, {253, 231, 37}}};
+constexpr std::array<glm::vec3, 6> kMagma{
+    {{0, 0, 4}, {59, 15, 112}, {140, 41, 129}, {222, 73, 104}, {254, 159, 109}, {252, 253, 191}}};
+constexpr std::array<glm::vec3, 6> kPlasma{
+    {{13, 8, 135}, {106, 0, 168}, {177, 42, 144}, {225, 100, 98}, {252, 166, 54}, {240, 249, 33}}};
+constexpr std::array<glm::vec3, 6> kCividis{
+    {{0, 32, 77}, {49, 68, 107}, {102, 105, 112}, {149, 143, 120}, {203, 186, 105}, {255, 234, 70}}};
+constexpr std::array<glm::vec3, 3> kHeightField{{{0, 0, 255}, {255, 255, 0}, {255, 0, 0}}};
+
+std::span<const glm::vec3> stops_of(Ramp ramp) {
+  switch (ramp) {
+    case Ramp::magma:
+      return kMagma;
+    case Ramp::plasma:
+      return kPlasma;
+    case Ramp::cividis:
+      return kCividis;
+    case Ramp::height_field:
+      return kHeightField;
+    case Ramp::viridis:
+    case Ramp::turbo:
+      break;
+  }
+  return kViridis;
+}
+
+// The polynomials that come with turbo (Mikhailov 2019, "Turbo, an improved rainbow colormap for visualization").
+glm::dvec3 turbo(double t) {
+  constexpr std::array<glm::dvec3, 6> kTerms{{{0.13572138, 0.09140261, 0.10667330},
+                                              {4.61539260, 2.19418839, 12.64194608},
+                                              {-42.66032258, 4.84296658, -60.58204836},
+                                              {132.13108234, -14.18503333, 110.36276771},
+                                              {-152.94239396, 4.27729857, -89.90310912},
+                                              {59.28637943, 2.82956604, 27.34824973}}};
+  glm::dvec3 color(0.0);
+  for (std::size_t i = kTerms.size(); i-- > 0;) color = color * t + kTerms[i];
+  return 255.0 * glm::clamp(color, 0.0, 1.0);
+}
 
 // Created, unclassified, ground, low, medium and high vegetation, building, low noise, key point, water, rail, road,
 // overlap, wire guard, conductor, tower, connector, bridge, high noise.
@@ -34,10 +72,14 @@ constexpr std::array<std::uint32_t, 19> kClassColors{
     pack(110, 90, 90),   pack(90, 96, 105),   pack(200, 180, 220), pack(240, 170, 60),  pack(250, 210, 60),
     pack(130, 80, 160),  pack(220, 130, 190), pack(200, 150, 120), pack(180, 40, 160)};
 
-std::uint32_t ramp_color(double t) {
-  const double at = t * static_cast<double>(kRamp.size() - 1);
-  const auto low = std::min(static_cast<std::size_t>(at), kRamp.size() - 2);
-  const glm::vec3 c = glm::mix(kRamp[low], kRamp[low + 1], static_cast<float>(at - static_cast<double>(low))) + 0.5f;
+glm::dvec3 mixed(std::span<const glm::vec3> stops, double t) {
+  const double at = t * static_cast<double>(stops.size() - 1);
+  const auto low = std::min(static_cast<std::size_t>(at), stops.size() - 2);
+  return glm::mix(stops[low], stops[low + 1], static_cast<float>(at - static_cast<double>(low)));
+}
+
+std::uint32_t ramp_color(Ramp ramp, double t) {
+  const glm::dvec3 c = (ramp == Ramp::turbo ? turbo(t) : mixed(stops_of(ramp), t)) + 0.5;
   return pack(static_cast<std::uint32_t>(c.x), static_cast<std::uint32_t>(c.y), static_cast<std::uint32_t>(c.z));
 }
 
@@ -102,7 +144,65 @@ void color_by_value(const ColorMap& map, std::span<PackedPoint> out, const Value
   });
 }
 
+const Column* column_of(std::span<const Column> columns, std::string_view name) {
+  const auto found = std::ranges::find_if(columns, [&](const Column& column) { return column.attribute.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+// `column`: the map's attribute; null for height.
+void color_all(const ColorMap& map, std::span<const glm::ivec3> positions, const Column* column, std::size_t first,
+               std::span<PackedPoint> out) {
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].position = positions[first + i];
+  const auto value = [&](std::size_t i) {
+    return column ? value_at(*column, first + i) : static_cast<double>(positions[first + i].z);
+  };
+  switch (map.kind) {
+    case ColorMap::Kind::rgb8:
+    case ColorMap::Kind::rgb16: {
+      const auto values = column->as<std::uint16_t>().subspan(3 * first);
+      const int shift = map.kind == ColorMap::Kind::rgb16 ? 8 : 0;
+      color_points(out, [&](std::size_t i) {
+        return pack(values[3 * i] >> shift & 0xFFu, values[3 * i + 1] >> shift & 0xFFu,
+                    values[3 * i + 2] >> shift & 0xFFu);
+      });
+      break;
+    }
+    case ColorMap::Kind::classes:
+      color_points(out, [&](std::size_t i) { return class_color(value(i)); });
+      break;
+    case ColorMap::Kind::grey:
+      color_by_value(map, out, value, grey_color);
+      break;
+    case ColorMap::Kind::ramp:
+      color_by_value(map, out, value, [&](double t) { return ramp_color(map.ramp, t); });
+      break;
+  }
+}
+
 }  // namespace
+
+std::span<const Ramp> all_ramps() {
+  static constexpr std::array kAll{Ramp::viridis, Ramp::magma, Ramp::plasma,
+                                   Ramp::cividis, Ramp::turbo, Ramp::height_field};
+  return kAll;
+}
+
+std::string_view name_of(Ramp ramp) {
+  constexpr std::array<std::string_view, 6> kNames{"viridis", "magma", "plasma", "cividis", "turbo", "height-field"};
+  return kNames[static_cast<std::size_t>(ramp)];
+}
+
+std::optional<Ramp> ramp_named(std::string_view name) {
+  for (const Ramp ramp : all_ramps())
+    if (name_of(ramp) == name) return ramp;
+  return std::nullopt;
+}
+
+std::string ramp_names() {
+  std::vector<std::string_view> names;
+  for (const Ramp ramp : all_ramps()) names.push_back(name_of(ramp));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 std::string choose_color(const Schema& schema, const std::string& name) {
   if (name.empty()) {
@@ -151,32 +251,36 @@ ColorMap map_colors(const TreeStore& tree, const Cloud& root, const std::string&
   return map;
 }
 
-void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, const Column* column, std::size_t first,
-                 std::span<PackedPoint> out) {
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].position = positions[first + i];
-  const auto value = [&](std::size_t i) {
-    return column ? value_at(*column, first + i) : static_cast<double>(positions[first + i].z);
-  };
-  switch (map.kind) {
-    case ColorMap::Kind::rgb8:
-    case ColorMap::Kind::rgb16: {
-      const auto values = column->as<std::uint16_t>().subspan(3 * first);
-      const int shift = map.kind == ColorMap::Kind::rgb16 ? 8 : 0;
-      color_points(out, [&](std::size_t i) {
-        return pack(values[3 * i] >> shift & 0xFFu, values[3 * i + 1] >> shift & 0xFFu,
-                    values[3 * i + 2] >> shift & 0xFFu);
-      });
-      break;
-    }
-    case ColorMap::Kind::classes:
-      color_points(out, [&](std::size_t i) { return class_color(value(i)); });
-      break;
-    case ColorMap::Kind::grey:
-      color_by_value(map, out, value, grey_color);
-      break;
-    case ColorMap::Kind::ramp:
-      color_by_value(map, out, value, ramp_color);
-      break;
+std::vector<std::size_t> attributes_of(const ColorMap& map, const Schema& schema) {
+  std::vector<std::size_t> attributes;
+  if (const auto own = find_attribute(schema, map.attribute)) attributes.push_back(*own);
+  const auto classes = map.hidden.any() ? find_attribute(schema, kClassAttribute) : std::nullopt;
+  if (classes && map.attribute != kClassAttribute) attributes.push_back(*classes);
+  return attributes;
+}
+
+std::vector<std::string> attribute_names_of(const ColorMap& map, const Schema& schema) {
+  std::vector<std::string> names;
+  for (const std::size_t index : attributes_of(map, schema)) names.push_back(schema[index].name);
+  return names;
+}
+
+ColorMap ColorChoice::complete(ColorMap map) const {
+  map.ramp = ramp;
+  map.hidden = hidden;
+  return map;
+}
+
+void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, std::span<const Column> columns,
+                 std::size_t first, std::span<PackedPoint> out) {
+  const Column* column = column_of(columns, map.attribute);
+  color_all(map, positions, column, first, out);
+  const Column* classes = map.hidden.any() ? column_of(columns, kClassAttribute) : nullptr;
+  if (!classes) return;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double value = value_at(*classes, first + i);
+    if (value >= 0.0 && value < static_cast<double>(map.hidden.size()) && map.hidden[static_cast<std::size_t>(value)])
+      out[i].rgba = 0;
   }
 }
 
@@ -185,9 +289,8 @@ PointSet make_point_set(const Cloud& cloud, const ColorMap& map) {
   set.grid = cloud.info.grid;
   set.bounds = cloud.bounds;
   set.points.resize(cloud.size());
-  const Column* column = cloud.find(map.attribute);
   tbb::parallel_for(Range(0, cloud.size(), 65536), [&](const Range& range) {
-    pack_points(map, cloud.positions, column, range.begin(),
+    pack_points(map, cloud.positions, cloud.columns, range.begin(),
                 std::span(set.points).subspan(range.begin(), range.size()));
   });
   return set;

@@ -44,13 +44,10 @@ void to_store_order(PointSet& set, const Octree& octree) {
   set.ids = octree.order;
 }
 
-// The points of the root, or of the nodes at which the tree begins, as a cloud of their own, with what the colour
-// needs.
-Cloud root_of(const TreeStore& tree, const std::string& color) {
+// The points of the root, or of the nodes at which the tree begins, as a cloud of their own, with these attributes.
+Cloud root_of(const TreeStore& tree, const std::vector<std::size_t>& attributes) {
   Cloud cloud;
   cloud.info = tree.info().source;
-  std::vector<std::size_t> attributes;
-  if (const auto index = find_attribute(cloud.info.schema, color)) attributes.push_back(*index);
   for (const std::size_t index : attributes) cloud.columns.push_back({cloud.info.schema[index], {}});
   PointBatch batch;
   for (const StoredNode& node : uppermost_nodes(tree)) {
@@ -75,7 +72,7 @@ void check_memory(const SourceInfo& info, bool with_octree, const MemoryLimits& 
                   info.path, info.point_count, bytes, limits.main));
 }
 
-Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs,
+Dataset open_dataset(const std::string& path, const ColorChoice& color, const DatasetNeeds& needs,
                      const MemoryLimits& limits) {
   if (!is_tree(path)) {
     const auto source = open_source(path);
@@ -87,14 +84,16 @@ Dataset open_dataset(const std::string& path, const std::string& color, const Da
   dataset.tree = open_tree(path);
   dataset.info = dataset.tree->info().source;
   if (needs.points) check_memory(dataset.info, false, limits);
-  const std::string chosen = choose_color(dataset.info.schema, color);
-  const Cloud root = root_of(*dataset.tree, chosen);
-  dataset.colors = map_colors(*dataset.tree, root, chosen);
+  const std::string chosen = choose_color(dataset.info.schema, color.attribute);
+  const ColorMap unstretched = color.complete({.attribute = chosen});
+  const Cloud root = root_of(*dataset.tree, attributes_of(unstretched, dataset.info.schema));
+  dataset.colors = color.complete(map_colors(*dataset.tree, root, chosen));
   dataset.root = make_point_set(root, dataset.colors);
   if (needs.points) {
     const TreeSource source(dataset.tree);
     dataset.info = source.info();
-    dataset.points = make_point_set(load_cloud(source, attributes_for_color(chosen)), dataset.colors);
+    dataset.points =
+        make_point_set(load_cloud(source, attribute_names_of(dataset.colors, dataset.info.schema)), dataset.colors);
     dataset.points.ids = ids_of(source.nodes());
     dataset.bytes_to_load = dataset.tree->bytes_read();
   } else {
@@ -104,7 +103,7 @@ Dataset open_dataset(const std::string& path, const std::string& color, const Da
   return dataset;
 }
 
-Dataset open_dataset(const std::vector<std::string>& paths, const std::string& color, const DatasetNeeds& needs,
+Dataset open_dataset(const std::vector<std::string>& paths, const ColorChoice& color, const DatasetNeeds& needs,
                      const MemoryLimits& limits) {
   if (paths.size() == 1) return open_dataset(paths.front(), color, needs, limits);
   const auto source = open_source(paths);
@@ -112,13 +111,14 @@ Dataset open_dataset(const std::vector<std::string>& paths, const std::string& c
   return load_dataset(*source, color, needs.octree);
 }
 
-Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree) {
+Dataset load_dataset(const PointSource& source, const ColorChoice& color, bool with_octree) {
   Dataset dataset;
   const auto start = Clock::now();
   dataset.info = source.info();
-  const std::string chosen = choose_color(dataset.info.schema, color);
-  const Cloud cloud = load_cloud(source, attributes_for_color(chosen));
-  dataset.colors = map_colors(cloud, chosen);
+  const std::string chosen = choose_color(dataset.info.schema, color.attribute);
+  const ColorMap unstretched = color.complete({.attribute = chosen});
+  const Cloud cloud = load_cloud(source, attribute_names_of(unstretched, dataset.info.schema));
+  dataset.colors = color.complete(map_colors(cloud, chosen));
   dataset.points = make_point_set(cloud, dataset.colors);
   dataset.load_seconds = seconds_since(start);
   if (with_octree) add_octree(dataset);

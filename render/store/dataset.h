@@ -52,14 +52,14 @@ void check_memory(const SourceInfo& info, bool with_octree, const MemoryLimits& 
 
 // Opens, reads and colours `path` (see open_source() and choose_color()). Throws Error before it reads points that
 // limits.main has no room for.
-Dataset open_dataset(const std::string& path, const std::string& color, const DatasetNeeds& needs,
+Dataset open_dataset(const std::string& path, const ColorChoice& color, const DatasetNeeds& needs,
                      const MemoryLimits& limits = {});
 // All of them as one cloud; an octree among several is read like a file.
-Dataset open_dataset(const std::vector<std::string>& paths, const std::string& color, const DatasetNeeds& needs,
+Dataset open_dataset(const std::vector<std::string>& paths, const ColorChoice& color, const DatasetNeeds& needs,
                      const MemoryLimits& limits = {});
 
 // Reads and colours a source that is no tree; builds the octree when asked to.
-Dataset load_dataset(const PointSource& source, const std::string& color, bool with_octree);
+Dataset load_dataset(const PointSource& source, const ColorChoice& color, bool with_octree);
 
 // Builds the octree of all points, which are in memory, and puts them in its order.
 void add_octree(Dataset& dataset);

@@ -14,6 +14,7 @@ class MemorySupply final : public PointSupply {
       : PointSupply(density), points_(points), octree_(octree) {}
 
   std::vector<VisibleCluster> visible(const View& view) override;
+  GridBox box(std::uint32_t handle) const override { return octree_.clusters[handle].box; }
   std::size_t visible_nodes() const override { return visible_nodes_; }
   void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) override;
   std::vector<PointPiece> collect(std::uint32_t most) override;

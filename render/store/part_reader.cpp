@@ -8,7 +8,7 @@
 namespace stipple {
 PartReader::PartReader(std::shared_ptr<const TreeStore> store, ColorMap colors, double root_edge)
     : store_(std::move(store)), colors_(std::move(colors)), root_edge_(root_edge) {
-  if (const auto index = find_attribute(store_->info().source.schema, colors_.attribute)) attributes_.push_back(*index);
+  attributes_ = attributes_of(colors_, store_->info().source.schema);
   for (std::size_t i = 0; i < kReadThreads; ++i) threads_.emplace_back([this] { work(); });
 }
 
@@ -68,7 +68,7 @@ SlottedPoints PartReader::read(const Request& request) const {
   PointBatch batch;
   store_->read_part(request.node, request.first, request.count, attributes_, batch);
   Buffer<PackedPoint> points(batch.positions.size());
-  pack_points(colors_, batch.positions, batch.columns.empty() ? nullptr : &batch.columns.front(), 0, points);
+  pack_points(colors_, batch.positions, batch.columns, 0, points);
   return slotted(store_->info().source.grid, points, first_id_of(request.node) + request.first, root_edge_);
 }
 

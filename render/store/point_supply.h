@@ -36,6 +36,8 @@ class PointSupply {
   virtual std::vector<VisibleCluster> discovered() { return {}; }
   // Whether discovered() may have more to give, now or later.
   virtual bool searching() const { return false; }
+  // Holds all points of a cluster.
+  virtual GridBox box(std::uint32_t handle) const = 0;
   // Nodes those clusters belong to.
   virtual std::size_t visible_nodes() const = 0;
 

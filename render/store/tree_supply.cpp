@@ -36,7 +36,7 @@ TreeSupply::TreeSupply(std::shared_ptr<const TreeStore> store, ColorMap colors, 
       colors_(std::move(colors)),
       bytes_before_(bytes_before),
       tree_(store_) {
-  if (const auto index = find_attribute(store_->info().source.schema, colors_.attribute)) attributes_.push_back(*index);
+  attributes_ = attributes_of(colors_, store_->info().source.schema);
   for (std::size_t i = 0; i < kReadThreads; ++i)
     threads_.emplace_back([this, looks_first = i % 2 == 0] { work(looks_first); });
 }
@@ -200,7 +200,7 @@ TreeSupply::Arrival TreeSupply::read(const Request& request) const {
   arrival.first_id = first_id_of(request.node) + request.first;
   arrival.one_pixel = request.one_pixel;
   arrival.points.resize(batch.positions.size());
-  pack_points(colors_, batch.positions, batch.columns.empty() ? nullptr : &batch.columns.front(), 0, arrival.points);
+  pack_points(colors_, batch.positions, batch.columns, 0, arrival.points);
   return arrival;
 }
 

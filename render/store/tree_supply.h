@@ -39,6 +39,7 @@ class TreeSupply final : public PointSupply {
   std::vector<VisibleCluster> visible(const View& view) override;
   std::vector<VisibleCluster> discovered() override;
   bool searching() const override { return asked_ > 0; }
+  GridBox box(std::uint32_t handle) const override { return parts_[handle].box; }
   std::size_t visible_nodes() const override { return visible_nodes_; }
   void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) override;
   std::vector<PointPiece> collect(std::uint32_t most) override;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "src/json/json.h"
+#include "src/run/build_estimate.h"
 
 namespace stipple {
 namespace {
@@ -26,28 +27,8 @@ void on_interrupt(void (*handler)(int)) {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-// Share of the work that is done: measured, counting takes about a tenth of the time and distributing a third.
-double share_done(const BuildProgress& progress) {
-  if (progress.points == 0) return 1.0;
-  const auto part = [&](std::uint64_t points) {
-    return std::min(1.0, static_cast<double>(points) / static_cast<double>(progress.points));
-  };
-  return 0.1 * part(progress.counted) + 0.3 * part(progress.distributed) + 0.6 * part(progress.built);
-}
-
-struct Estimate {
-  double rate = 0.0;  // points of the input a second, over all phases
-  double seconds_left = 0.0;
-};
-
-Estimate estimate(const BuildProgress& progress, double seconds) {
-  const double share = share_done(progress);
-  if (share <= 0.0 || seconds <= 0.0) return {};
-  return {share * static_cast<double>(progress.points) / seconds, seconds * (1.0 - share) / share};
-}
-
 void print_json_line(const BuildProgress& progress, double seconds) {
-  const Estimate now = estimate(progress, seconds);
+  const BuildEstimate now = estimate(progress, seconds);
   const Json line{
       {"phase", name_of(progress.phase)},        {"points", progress.points}, {"counted", progress.counted},
       {"distributed", progress.distributed},     {"built", progress.built},   {"bytes_read", progress.bytes_read},
@@ -58,7 +39,7 @@ void print_json_line(const BuildProgress& progress, double seconds) {
 }
 
 void print_terminal_line(const BuildProgress& progress, double seconds) {
-  const Estimate now = estimate(progress, seconds);
+  const BuildEstimate now = estimate(progress, seconds);
   fmt::print(stderr, "\r{:<12} {:3.0f} %  {:5.1f} M points/s  {:.2f} GB read  {:.2f} GB written  {:.0f} s left\x1b[K",
              name_of(progress.phase), 100.0 * share_done(progress), now.rate * 1e-6,
              static_cast<double>(progress.bytes_read) * 1e-9, static_cast<double>(progress.bytes_written) * 1e-9,

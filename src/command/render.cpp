@@ -18,7 +18,9 @@
 #include "render/store/dataset.h"
 #include "src/camera/camera_file.h"
 #include "src/cli/cli.h"
+#include "src/cli/color_flags.h"
 #include "src/cli/draw_options.h"
+#include "src/cli/eye_dome_flags.h"
 #include "src/json/json.h"
 #include "src/run/loading_run.h"
 #include "src/run/peak_memory.h"
@@ -47,6 +49,8 @@ struct Options {
   std::string depth_out;
   bool while_loading = false;
   DrawOptions draw;
+  ColorFlags color;
+  EyeDomeFlags eye_dome;
   bool json = false;
 };
 
@@ -55,6 +59,15 @@ struct Picture {
   FrameData frame;
   Json stats;
 };
+
+std::optional<EyeDomeOptions> shading_of(const Options& options) {
+  return options.eye_dome.on ? std::optional(eye_dome_options_of(options.eye_dome)) : std::nullopt;
+}
+
+std::vector<std::uint32_t> shaded_colors(const FeedbackTarget& frame, const EyeDomeOptions& shading) {
+  EyeDome eye_dome;
+  return read_colors(eye_dome.shade(frame, shading));
+}
 
 // The one called --view, or the only one there is.
 template <class Named>
@@ -130,6 +143,7 @@ Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, 
   const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
   const SelectionCounts counts = method->counts();
   Picture picture{renderer.read(), stats_of(state, counts)};
+  if (const auto shading = shading_of(options)) picture.frame.rgba = shaded_colors(*renderer.frame(), *shading);
   picture.stats.update(context_provenance(context));
   return picture;
 }
@@ -175,7 +189,9 @@ LoadedPicture draw_while_loading(const Options& options, Mode mode, const PointS
                                  const PointSize& point_size) {
   const HeadlessContext context;
   const Grid grid = source.info().grid;
-  BackgroundLoad load(source, choose_color(source.info().schema, options.draw.color));
+  ColorChoice color = color_choice_of(options.draw.color, options.color);
+  color.attribute = choose_color(source.info().schema, color.attribute);
+  BackgroundLoad load(source, color);
   LoadingDrawing drawing(load, mode, method_options_of(options.draw), rasterizer_of(options.draw), grid, point_size,
                          budget_of(options.draw), view.size);
   const Until until = parse_until(options.until);
@@ -191,10 +207,12 @@ LoadedPicture draw_while_loading(const Options& options, Mode mode, const PointS
     auto part = std::make_shared<Dataset>();
     part->info = source.info();
     part->points.grid = grid;
-    part->colors.attribute = choose_color(part->info.schema, options.draw.color);
+    part->colors = color.complete({.attribute = color.attribute});
     dataset = std::move(part);
   }
   LoadedPicture drawn{{drawing.renderer().read(), stats_of(state, drawing.loading().counts())}, std::move(dataset)};
+  if (const auto shading = shading_of(options))
+    drawn.picture.frame.rgba = shaded_colors(*drawing.renderer().frame(), *shading);
   drawn.picture.stats["while_loading"] = loading_json(drawing, state, std::move(frames));
   drawn.picture.stats.update(context_provenance(context));
   return drawn;
@@ -238,6 +256,9 @@ void check(const Options& options, const std::optional<Mode>& mode) {
   rasterizer_of(options.draw);
   budget_of(options.draw);
   method_options_of(options.draw);
+  color_choice_of(options.draw.color, options.color);
+  if (shading_of(options) && !mode)
+    throw UsageError("--edl: the reference is drawn on the CPU, and this is a pass on the GPU; choose another --mode");
   parse_until(options.until);
 }
 
@@ -258,12 +279,14 @@ Json stats_of(const Options& options, const Picture& picture, const Dataset& dat
              {"point_size", point_size.pixels},
              {"splat_size", point_size.world},
              {"background", options.draw.background},
+             {"edl", json_of(shading_of(options))},
              {"load_ms", dataset.load_seconds * 1e3},
              {"build_ms", dataset.build_seconds * 1e3}};
   const auto fps = budget_of(options.draw).frames_per_second;
   stats["target_fps"] = fps ? Json(*fps) : Json();
   stats.update(picture.stats);
   stats.update(dataset_provenance(dataset));
+  stats.update(color_provenance(dataset.colors));
   stats["view"] = view_provenance(view);
   stats.update(program_provenance());
   stats["peak_memory_bytes"] = peak_memory();
@@ -316,8 +339,8 @@ void run(const Options& options) {
   check(options, mode);
   if (options.while_loading) return run_while_loading(options, *mode, size, point_size);
 
-  const Dataset dataset = open_dataset(options.inputs, options.draw.color, mode ? needs_of(*mode) : DatasetNeeds{},
-                                       limits_of(options.draw));
+  const Dataset dataset = open_dataset(options.inputs, color_choice_of(options.draw.color, options.color),
+                                       mode ? needs_of(*mode) : DatasetNeeds{}, limits_of(options.draw));
   for (const std::string& warning : dataset.info.warnings) warn(warning);
   const auto asked = camera_asked_for(options);
   const Camera camera = asked ? *asked : proposed_camera(dataset.overview(), static_cast<double>(size.x) / size.y);
@@ -366,6 +389,8 @@ void add_render_command(CLI::App& app) {
   command->add_option("--fov", options->fov_deg, "Vertical field of view in degrees.")
       ->needs(eye)
       ->capture_default_str();
+  add_color_flags(*command, options->color);
+  add_eye_dome_flags(*command, options->eye_dome);
   command
       ->add_option("--until", options->until,
                    "When to stop: converged (nothing is left to draw), frame:N (after N frames) or ms:T (after T "

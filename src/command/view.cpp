@@ -8,7 +8,9 @@
 #include "octree/core/error.h"
 #include "src/camera/camera_file.h"
 #include "src/cli/cli.h"
+#include "src/cli/color_flags.h"
 #include "src/cli/draw_options.h"
+#include "src/cli/eye_dome_flags.h"
 #include "src/run/free_memory.h"
 #include "src/viewer/viewer.h"
 
@@ -24,15 +26,18 @@ struct Options {
   std::string mode;
   std::string camera;
   std::string screenshot;
+  std::string screenshot_size;
   bool with_panels = false;
   bool exit_after_screenshot = false;
   DrawOptions draw;
+  ColorFlags color;
+  EyeDomeFlags eye_dome;
 };
 
 ViewerOptions viewer_options(const Options& options) {
   ViewerOptions viewer;
   viewer.inputs = options.inputs;
-  viewer.color = options.draw.color;
+  viewer.color = color_choice_of(options.draw.color, options.color);
   if (!options.mode.empty()) {
     viewer.mode = mode_named(options.mode);
     if (!viewer.mode) throw UsageError(fmt::format("--mode {}: expected {}", options.mode, mode_names()));
@@ -45,12 +50,16 @@ ViewerOptions viewer_options(const Options& options) {
   viewer.point_size = point_size_of(options.draw).pixels;
   viewer.splat_size = point_size_of(options.draw).world;
   viewer.background = parse_color("--background", options.draw.background);
+  viewer.shaded = options.eye_dome.on;
+  viewer.eye_dome = eye_dome_options_of(options.eye_dome);
   if (!options.camera.empty()) {
     const CameraFile file = read_camera_file(options.camera);
     if (!file.views.empty()) viewer.camera = file.views.front().camera;
     if (!file.paths.empty()) viewer.path = file.paths.front();
   }
   viewer.screenshot = options.screenshot;
+  if (!options.screenshot_size.empty())
+    viewer.screenshot_size = parse_size("--screenshot-size", options.screenshot_size);
   viewer.with_panels = options.with_panels;
   viewer.exit_after_screenshot = options.exit_after_screenshot;
   if (options.exit_after_screenshot && options.inputs.empty())
@@ -65,6 +74,9 @@ void take_settings(ViewerOptions& viewer, const CLI::App& command) {
   if (open("--background")) viewer.background = settings.background;
   if (open("--point-size")) viewer.point_size = settings.point_size;
   if (open("--fps") && open("--budget")) viewer.policy.frames_per_second = settings.frames_per_second;
+  if (open("--edl")) viewer.shaded = settings.shaded;
+  if (open("--edl-strength")) viewer.eye_dome.strength = settings.eye_dome.strength;
+  if (open("--edl-radius")) viewer.eye_dome.radius = settings.eye_dome.radius;
   viewer.panel_shown = settings.panel_shown;
   viewer.recent = read_recent(recent_path());
 }
@@ -100,9 +112,10 @@ void add_view_command(CLI::App& app) {
                       "Point clouds to open: files, folders of files, octrees; together one cloud. Without any, drop "
                       "them on the window.");
   command->add_option("--mode", options->mode,
-                      "Method to begin with, as `stipple render` knows them but for reference. Default: hierarchical "
-                      "for an octree on disk, of which it reads what the view asks for; hybrid for all else.");
+                      "Method to begin with, as `stipple render` knows them but for reference. Default: hybrid.");
   add_draw_options(*command, options->draw);
+  add_color_flags(*command, options->color);
+  add_eye_dome_flags(*command, options->eye_dome);
   CLI::Option* budget = command->get_option("--budget");
   command->add_option("--camera", options->camera,
                       R"(JSON file with "eye" and "target" to begin with, or "paths", as `stipple study --path` takes )"
@@ -110,7 +123,13 @@ void add_view_command(CLI::App& app) {
   CLI::Option* screenshot =
       command->add_option("--screenshot", options->screenshot,
                           "PNG file to write when nothing is left to draw: the picture without the panels.");
-  command->add_flag("--with-panels", options->with_panels, "Picture the panels, too.")->needs(screenshot);
+  CLI::Option* size = command
+                          ->add_option("--screenshot-size", options->screenshot_size,
+                                       "Width and height of that picture in pixels; default: those of the window.")
+                          ->needs(screenshot);
+  command->add_flag("--with-panels", options->with_panels, "Picture the panels, too.")
+      ->needs(screenshot)
+      ->excludes(size);
   command->add_flag("--exit-after-screenshot", options->exit_after_screenshot, "End then.")->needs(screenshot);
   command->footer(
       fmt::format("The window shows points while they are read. Press ? in it for the keys. Points a frame are steered "

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "src/cli/color_flags.h"
+
 namespace stipple {
 namespace {
 
@@ -36,9 +38,13 @@ std::string text_of(const RenderCommand& command) {
   line += fmt::format(" -o view.png --mode {} --raster {} --size {}x{} --eye={} --target={} --up={} --fov {}",
                       command.mode, command.raster, command.size.x, command.size.y, text_of(command.camera.eye),
                       text_of(command.camera.target), text_of(command.camera.up), command.camera.fov_deg);
-  line += fmt::format(" --color {} --point-size {} --background {:06x}", quoted(command.color), command.point_size,
-                      command.background);
+  line += fmt::format(" --color {} --point-size {} --background {:06x}", quoted(command.colors.attribute),
+                      command.point_size, command.background);
   if (command.splat_size > 0.0) line += fmt::format(" --splat-size {}", command.splat_size);
+  if (command.colors.ramp != Ramp::viridis) line += fmt::format(" --ramp {}", name_of(command.colors.ramp));
+  if (command.colors.hidden.any()) line += fmt::format(" --hide-class {}", stipple::text_of(command.colors.hidden));
+  if (command.shading)
+    line += fmt::format(" --edl --edl-strength {} --edl-radius {}", command.shading->strength, command.shading->radius);
   return line;
 }
 

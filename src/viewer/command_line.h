@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "render/frame/camera.h"
-#include "render/method/method.h"
+#include "render/frame/eye_dome.h"
+#include "render/store/colorize.h"
 
 namespace stipple {
 
@@ -17,10 +18,11 @@ struct RenderCommand {
   std::string raster;
   Camera camera;
   glm::ivec2 size{0};
-  std::string color;
+  ColorMap colors;
   double point_size = 1.0;
   double splat_size = 0.0;  // 0: none
   std::uint32_t background = 0;
+  std::optional<EyeDomeOptions> shading{};
 };
 
 // For a shell. Numbers are written so that they are read back as the same doubles.

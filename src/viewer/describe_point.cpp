@@ -68,7 +68,9 @@ class TreeSearch {
     PointBatch batch;
     tree_.read_points(node, all_attributes(tree_.info().source.schema), batch);
     if (place >= batch.positions.size() || batch.positions[place] != position_) return std::nullopt;
-    return values_of(batch.columns, place);
+    PointValues values = values_of(batch.columns, place);
+    values.insert(values.begin(), {"node", fmt::format("{}, {} points", name_of(node), node.points)});
+    return values;
   }
 
   const TreeStore& tree_;
@@ -108,6 +110,18 @@ PointValues describe_point(const PointSource& source, std::uint64_t id) {
 PointValues describe_point(const TreeStore& tree, std::uint32_t id, const glm::ivec3& position) {
   if (auto values = TreeSearch(tree, id, position).run()) return *values;
   throw Error(fmt::format("{}: the point that was picked is not there any more", tree.info().source.path));
+}
+
+std::string node_of(const Octree& octree, std::uint32_t id) {
+  const auto place = std::ranges::find(octree.order, id) - octree.order.begin();
+  for (const Node& node : octree.nodes) {
+    if (place < node.first || place >= std::int64_t{node.first} + node.count) continue;
+    StoredNode stored;
+    stored.level = node.level;
+    stored.cell = node.cell;
+    return fmt::format("{}, {} points", name_of(stored), node.count);
+  }
+  return {};
 }
 
 std::string exact_text(const Grid& grid, const glm::ivec3& position, int axis) {

@@ -23,6 +23,9 @@ PointValues describe_point(const PointSource& source, std::uint64_t id);
 // position, no more. Throws Error when there is no such point.
 PointValues describe_point(const TreeStore& tree, std::uint32_t id, const glm::ivec3& position);
 
+// "r04, 1234 points": the node of an octree in memory that has the point with this id; empty where none has.
+std::string node_of(const Octree& octree, std::uint32_t id);
+
 // A world coordinate with the decimals that the grid has: "637012.24". Of grids without (thirds, say) the shortest text
 // that gives the double back.
 std::string exact_text(const Grid& grid, const glm::ivec3& position, int axis);

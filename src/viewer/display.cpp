@@ -1,6 +1,7 @@
 #include "src/viewer/display.h"
 
 #include <array>
+#include <vector>
 
 namespace stipple {
 namespace {
@@ -11,12 +12,21 @@ glm::vec3 color_of(std::uint32_t rrggbb) {
 
 }  // namespace
 
-Display::Display()
-    : one_(Program::graphics("display_vertex.glsl", "display_fragment.glsl")),
-      two_(Program::graphics("display_vertex.glsl", "display_fragment.glsl", {{"SPLIT"}})) {
+Display::Display() {
   GLuint name = 0;
   glCreateVertexArrays(1, &name);
   no_vertices_ = Handle<gl_delete::vertex_array>(name);
+}
+
+const Program& Display::program(bool split, bool packed) {
+  std::optional<Program>& program = programs_[split][packed];
+  if (!program) {
+    std::vector<ShaderDefine> defines;
+    if (split) defines.push_back({"SPLIT"});
+    if (packed) defines.push_back({"PACKED"});
+    program = Program::graphics("display_vertex.glsl", "display_fragment.glsl", defines);
+  }
+  return *program;
 }
 
 void Display::draw(const Scene& scene, const glm::ivec2& size, bool upside_down) {
@@ -24,12 +34,19 @@ void Display::draw(const Scene& scene, const glm::ivec2& size, bool upside_down)
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glViewport(0, 0, size.x, size.y);
-  (scene.right ? two_ : one_).use();
-  scene.left->points().bind(0);
-  scene.left->ids().bind(1);
+  std::array<const Texture2D*, 2> packed = scene.packed;
+  if (scene.eye_dome && !packed[0]) {
+    packed[0] = &eye_domes_[0].shade(*scene.left, *scene.eye_dome);
+    if (scene.right) packed[1] = &eye_domes_[1].shade(*scene.right, *scene.eye_dome);
+  }
+  program(scene.right, packed[0]).use();
+  const auto bind = [&](const FeedbackTarget& frame, const Texture2D* colors, GLuint unit) {
+    (colors ? *colors : frame.points()).bind(unit);
+    frame.ids().bind(unit + 1);
+  };
+  bind(*scene.left, packed[0], 0);
   if (scene.right) {
-    scene.right->points().bind(2);
-    scene.right->ids().bind(3);
+    bind(*scene.right, packed[1], 2);
     glUniform1i(3, scene.divider);
   }
   const glm::vec3 background = color_of(scene.background);
@@ -39,6 +56,9 @@ void Display::draw(const Scene& scene, const glm::ivec2& size, bool upside_down)
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   glBindVertexArray(no_vertices_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  const int border = scene.right ? scene.divider : size.x;
+  wire_painter_.draw(scene.wires[0], *scene.left, scene.near, size, {0, border}, upside_down);
+  if (scene.right) wire_painter_.draw(scene.wires[1], *scene.right, scene.near, size, {border, size.x}, upside_down);
 }
 
 void Display::show(const Scene& scene, const glm::ivec2& window_size) {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace stipple {
 namespace {
@@ -28,7 +30,32 @@ constexpr std::array<std::string_view, 19> kClassNames{"created, never classifie
                                                        "bridge deck",
                                                        "high noise"};
 
-void show_ramp(const Dataset& dataset) {
+// Values that differ by whole numbers and are so few have a swatch each.
+constexpr int kMostSwatches = 16;
+
+void show_swatch(std::uint32_t color) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float side = ImGui::GetTextLineHeight();
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, color);
+  ImGui::Dummy({side, side});
+  ImGui::SameLine();
+}
+
+void show_line(const std::string& line) {
+  ImGui::TextUnformatted(line.c_str());
+}
+
+// A swatch for each number of returns, say.
+void show_numbers(const Dataset& dataset, int numbers) {
+  const std::vector<std::uint32_t> colors = legend_colors(dataset.colors, numbers);
+  for (int i = 0; i < numbers; ++i) {
+    if (i % 8 != 0) ImGui::SameLine();
+    show_swatch(colors[static_cast<std::size_t>(i)]);
+    show_line(fmt::format("{:.0f}", dataset.colors.low + i));
+  }
+}
+
+void show_stretch(const Dataset& dataset) {
   constexpr int kSteps = 64;
   const std::vector<std::uint32_t> colors = legend_colors(dataset.colors, kSteps);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -40,23 +67,46 @@ void show_ramp(const Dataset& dataset) {
     list.AddRectFilled({left, at.y}, {left + width / kSteps + 1.0f, at.y + height}, colors[i]);
   }
   ImGui::Dummy({width, height});
-  const std::string ends = fmt::format("{:.6g} to {:.6g}", legend_value(dataset, dataset.colors.low),
-                                       legend_value(dataset, dataset.colors.high));
-  ImGui::TextUnformatted(ends.c_str());
+  const auto [low, high] =
+      range_text(legend_value(dataset, dataset.colors.low), legend_value(dataset, dataset.colors.high));
+  show_line(low + " to " + high);
 }
 
-void show_classes(const Dataset& dataset) {
+bool counts(const Dataset& dataset) {
+  const auto index = find_attribute(dataset.info.schema, dataset.colors.attribute);
+  if (!index) return false;
+  const Attribute& attribute = dataset.info.schema[*index];
+  const bool whole = attribute.type != ScalarType::f32 && attribute.type != ScalarType::f64 && attribute.scale == 1.0;
+  return whole && dataset.colors.high - dataset.colors.low < kMostSwatches;
+}
+
+void show_values(const Dataset& dataset) {
+  if (counts(dataset))
+    show_numbers(dataset, static_cast<int>(dataset.colors.high - dataset.colors.low) + 1);
+  else
+    show_stretch(dataset);
+}
+
+void choose_ramp(ColorChoice& choice) {
+  if (!ImGui::BeginCombo("ramp", std::string(name_of(choice.ramp)).c_str())) return;
+  for (const Ramp ramp : all_ramps())
+    if (ImGui::Selectable(std::string(name_of(ramp)).c_str(), ramp == choice.ramp)) choice.ramp = ramp;
+  ImGui::EndCombo();
+}
+
+// A box for each class to draw its points or not; colours where they are the classes'.
+void show_classes(const Dataset& dataset, ColorChoice& choice) {
+  if (!find_attribute(dataset.info.schema, kClassAttribute)) return;
+  const bool hides = choice.hidden.any();
+  if (!ImGui::TreeNode("classes", "%s", hides ? "classes (some are hidden)" : "classes")) return;
+  const bool colored = dataset.colors.kind == ColorMap::Kind::classes;
   const std::vector<std::uint32_t> colors = legend_colors(dataset.colors, static_cast<int>(kClassNames.size()));
-  if (!ImGui::TreeNode("classes")) return;
-  for (std::size_t i = 0; i < colors.size(); ++i) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float side = ImGui::GetTextLineHeight();
-    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, colors[i]);
-    ImGui::Dummy({side, side});
-    ImGui::SameLine();
-    const std::string line = fmt::format("{} {}", i, class_name(static_cast<int>(i)));
-    ImGui::TextUnformatted(line.c_str());
+  for (std::size_t i = 0; i < kClassNames.size(); ++i) {
+    if (colored) show_swatch(colors[i]);
+    bool shown = !choice.hidden[i];
+    if (ImGui::Checkbox(fmt::format("{} {}", i, kClassNames[i]).c_str(), &shown)) choice.hidden.set(i, !shown);
   }
+  if (hides && ImGui::Button("show all")) choice.hidden.reset();
   ImGui::TreePop();
 }
 
@@ -67,12 +117,13 @@ std::vector<std::uint32_t> legend_colors(const ColorMap& map, int steps) {
   // Points whose height is the value
   ColorMap by_height = map;
   by_height.attribute = "height";
+  by_height.hidden.reset();
   by_height.low = 0.0;
   by_height.high = steps - 1;
   std::vector<glm::ivec3> values;
   for (int i = 0; i < steps; ++i) values.emplace_back(0, 0, i);
   std::vector<PackedPoint> points(values.size());
-  pack_points(by_height, values, nullptr, 0, points);
+  pack_points(by_height, values, {}, 0, points);
   std::vector<std::uint32_t> colors;
   for (const PackedPoint& point : points) colors.push_back(point.rgba);
   return colors;
@@ -87,19 +138,28 @@ double legend_value(const Dataset& dataset, double mapped) {
   return dataset.colors.attribute == "height" ? grid.offset.z + grid.scale.z * mapped : mapped;
 }
 
-void show_legend(const Dataset& dataset) {
+std::array<std::string, 2> range_text(double low, double high) {
+  const double range = high - low;
+  if (!(range > 0.0) || !std::isfinite(range)) return {fmt::format("{:.6g}", low), fmt::format("{:.6g}", high)};
+  const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(range))), 0, 12);
+  return {fmt::format("{:.{}f}", low, decimals), fmt::format("{:.{}f}", high, decimals)};
+}
+
+void show_legend(const Dataset& dataset, ColorChoice& choice) {
   switch (dataset.colors.kind) {
     case ColorMap::Kind::rgb8:
     case ColorMap::Kind::rgb16:
-      break;
     case ColorMap::Kind::classes:
-      show_classes(dataset);
       break;
     case ColorMap::Kind::grey:
+      show_stretch(dataset);
+      break;
     case ColorMap::Kind::ramp:
-      show_ramp(dataset);
+      show_values(dataset);
+      choose_ramp(choice);
       break;
   }
+  show_classes(dataset, choice);
 }
 
 }  // namespace stipple

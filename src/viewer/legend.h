@@ -1,7 +1,9 @@
 // What the colours of a cloud mean.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,7 +21,10 @@ std::string_view class_name(int value);
 // World units for height, else the attribute's own.
 double legend_value(const Dataset& dataset, double mapped);
 
-// In the panel.
-void show_legend(const Dataset& dataset);
+// The ends of a map as text, with as many digits as tell them apart.
+std::array<std::string, 2> range_text(double low, double high);
+
+// In the panel: what the colours mean, and what can be chosen about them, which changes `choice`.
+void show_legend(const Dataset& dataset, ColorChoice& choice);
 
 }  // namespace stipple

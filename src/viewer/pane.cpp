@@ -9,34 +9,58 @@ bool same(const Grid& a, const Grid& b) {
   return a.offset == b.offset && a.scale == b.scale;
 }
 
-bool same(const ColorMap& a, const ColorMap& b) {
-  return a.attribute == b.attribute && a.kind == b.kind && a.low == b.low && a.high == b.high;
-}
-
 }  // namespace
 
-std::unique_ptr<ProgressiveRenderer> Pane::make_renderer(const Content& content, const PointSize& point_size) const {
-  return std::make_unique<ProgressiveRenderer>(*content.method, rasterizer_, content.grid, point_size);
+std::unique_ptr<ProgressiveRenderer> Pane::make_renderer(Method& method, const Grid& grid,
+                                                         const PointSize& point_size) const {
+  return std::make_unique<ProgressiveRenderer>(method, rasterizer_, grid, point_size);
+}
+
+const FeedbackTarget* Pane::frame() const {
+  if (frozen_ && frozen_->renderer->frame()) return frozen_->renderer->frame();
+  return renderer_ ? renderer_->frame() : nullptr;
 }
 
 void Pane::show(Content next, bool other_points) {
-  const bool keep = renderer_ && !other_points && same(next.grid, content_.grid) && same(next.colors, content_.colors);
+  const bool keep = renderer_ && !other_points && same(next.grid, content_.grid) && next.colors == content_.colors;
   if (keep) {
     renderer_->use(*next.method);
     content_ = std::move(next);
   } else {
-    auto renderer = make_renderer(next, point_size_);
+    auto renderer = make_renderer(*next.method, next.grid, point_size_);
     renderer_ = std::move(renderer);
     content_ = std::move(next);
   }
-  drawn_view_ = {};
+  thaw();
 }
 
 void Pane::set_point_size(double pixels) {
   const PointSize point_size(pixels, point_size_.world);
-  if (renderer_) renderer_ = make_renderer(content_, point_size);
+  if (renderer_) {
+    auto renderer = make_renderer(*content_.method, content_.grid, point_size);
+    if (frozen_) frozen_->renderer = make_renderer(*frozen_->points, content_.grid, point_size);
+    renderer_ = std::move(renderer);
+  }
   point_size_ = point_size;
   drawn_view_ = {};
+}
+
+void Pane::freeze() {
+  if (frozen_ || !frame()) return;
+  Still still{.points = std::make_unique<Frozen>(*frame()), .boxes = boxes(), .renderer = nullptr};
+  still.renderer = make_renderer(*still.points, content_.grid, point_size_);
+  frozen_ = std::move(still);
+  drawn_view_ = {};
+}
+
+void Pane::thaw() {
+  frozen_.reset();
+  drawn_view_ = {};
+}
+
+std::vector<SightedBox> Pane::boxes() const {
+  if (frozen_) return frozen_->boxes;
+  return content_.method ? content_.method->boxes() : std::vector<SightedBox>{};
 }
 
 void Pane::draw(const View& view, std::uint32_t budget) {
@@ -45,7 +69,7 @@ void Pane::draw(const View& view, std::uint32_t budget) {
     drawn_view_ = view;
     view_points_ = 0;
   }
-  report_ = renderer_->draw(view, budget);
+  report_ = (frozen_ ? *frozen_->renderer : *renderer_).draw(view, budget);
   view_points_ += report_.points_filled;
   ++frames_;
 }

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "render/method/progressive_renderer.h"
 #include "render/store/dataset.h"
+#include "src/viewer/frozen.h"
 
 namespace stipple {
 
@@ -28,6 +30,15 @@ class Pane {
   void show(Content next, bool other_points);
   // Throws Error where the rasterizer draws no such points; then they stay as they were.
   void set_point_size(double pixels);
+  // From nothing.
+  void begin_again() { set_point_size(point_size_.pixels); }
+  // Keeps the points of the last frame, if there is one: from now on views show them and no others.
+  void freeze();
+  // Goes on drawing where it was.
+  void thaw();
+  bool frozen() const { return frozen_.has_value(); }
+  // Of what is drawn from, those that the view sees, or saw when the pane was frozen. May wait for the GPU.
+  std::vector<SightedBox> boxes() const;
   // Draws again though it was at rest: the method has got more points.
   void wake() { report_.converged = false; }
 
@@ -37,7 +48,7 @@ class Pane {
   bool at_rest(const View& view) const { return !renderer_ || (view == drawn_view_ && report_.converged); }
 
   // Null before the first.
-  const FeedbackTarget* frame() const { return renderer_ ? renderer_->frame() : nullptr; }
+  const FeedbackTarget* frame() const;
   bool empty() const { return !renderer_; }
   const Content& content() const { return content_; }
   std::optional<Mode> mode() const { return content_.mode; }
@@ -46,12 +57,20 @@ class Pane {
   std::uint64_t frames() const { return frames_; }                // drawn ever
 
  private:
-  std::unique_ptr<ProgressiveRenderer> make_renderer(const Content& content, const PointSize& point_size) const;
+  struct Still {
+    std::unique_ptr<Frozen> points;
+    std::vector<SightedBox> boxes;
+    std::unique_ptr<ProgressiveRenderer> renderer;  // of the points
+  };
+
+  std::unique_ptr<ProgressiveRenderer> make_renderer(Method& method, const Grid& grid,
+                                                     const PointSize& point_size) const;
 
   RasterizerKind rasterizer_;
   PointSize point_size_;
   Content content_;
   std::unique_ptr<ProgressiveRenderer> renderer_;  // after the content it draws from
+  std::optional<Still> frozen_;
   View drawn_view_;
   FrameReport report_;
   std::uint64_t view_points_ = 0;

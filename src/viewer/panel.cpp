@@ -8,12 +8,14 @@
 
 #include "src/cli/cli.h"
 #include "src/viewer/legend.h"
+#include "src/viewer/panel_comparison.h"
+#include "src/viewer/panel_files.h"
+#include "src/viewer/panel_overlays.h"
 
 namespace stipple {
 namespace {
 
-constexpr float kWidth = 290.0f;  // of the panel, unscaled
-constexpr ImU32 kPickColor = IM_COL32(255, 210, 60, 255);
+constexpr float kWidth = 310.0f;  // of the panel, unscaled
 
 void text(const std::string& line) {
   ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size());
@@ -151,13 +153,16 @@ void show_look(const PanelFacts& facts, PanelWishes& wishes) {
   const auto& info = facts.stage.info();
   const Dataset* dataset = facts.stage.dataset();
   if (info && dataset) {
-    const std::string& now = dataset->colors.attribute;
-    if (ImGui::BeginCombo("colour", now.c_str())) {
+    ColorChoice choice = facts.color;
+    choice.attribute = dataset->colors.attribute;
+    const ColorChoice before = choice;
+    if (ImGui::BeginCombo("colour", before.attribute.c_str())) {
       for (const std::string& name : colors_of(*info))
-        if (ImGui::Selectable(name.c_str(), name == now) && name != now) wishes.color = name;
+        if (ImGui::Selectable(name.c_str(), name == before.attribute)) choice.attribute = name;
       ImGui::EndCombo();
     }
-    show_legend(*dataset);
+    show_legend(*dataset, choice);
+    if (choice != before) wishes.color = choice;
   }
   auto size = static_cast<float>(facts.point_size);
   ImGui::SliderFloat("point size", &size, 1.0f, 10.0f, "%.0f px", ImGuiSliderFlags_AlwaysClamp);
@@ -169,6 +174,18 @@ void show_look(const PanelFacts& facts, PanelWishes& wishes) {
     for (const float c : color) packed = packed << 8 | static_cast<std::uint32_t>(std::lround(c * 255.0f));
     wishes.background = packed;
   }
+}
+
+void show_shading(const PanelFacts& facts, PanelWishes& wishes) {
+  bool shaded = facts.shaded;
+  if (ImGui::Checkbox("eye-dome lighting", &shaded)) wishes.commands.push_back(Command::shade);
+  if (!facts.shaded) return;
+  auto strength = static_cast<float>(facts.eye_dome.strength);
+  auto radius = static_cast<float>(facts.eye_dome.radius);
+  bool changed = ImGui::SliderFloat("strength", &strength, 0.01f, 10.0f, "%.2f",
+                                    ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+  changed |= ImGui::SliderFloat("radius", &radius, 1.0f, 10.0f, "%.1f px", ImGuiSliderFlags_AlwaysClamp);
+  if (changed) wishes.eye_dome = {.strength = strength, .radius = radius};
 }
 
 void show_picks(const PanelFacts& facts) {
@@ -193,83 +210,6 @@ void show_picks(const PanelFacts& facts) {
   }
 }
 
-// Crosses at the picks, and a line between them.
-void mark_picks(const PanelFacts& facts) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImGuiIO& io = ImGui::GetIO();
-  std::vector<ImVec2> places;
-  char letter = 'A';
-  for (const Pick& pick : facts.picks) {
-    const glm::dvec3 r = pick.world - facts.view.eye;
-    const double depth = glm::dot(facts.view.forward, r);
-    const char name[2] = {letter++, 0};
-    if (depth <= facts.view.near) continue;
-    const double x = 0.5 * (1.0 + glm::dot(facts.view.right, r) * facts.view.cot_x / depth);
-    const double y = 0.5 * (1.0 - glm::dot(facts.view.up, r) * facts.view.cot_y / depth);
-    const ImVec2 at{static_cast<float>(x) * io.DisplaySize.x, static_cast<float>(y) * io.DisplaySize.y};
-    const float arm = 7.0f * facts.scale;
-    list.AddLine({at.x - arm, at.y}, {at.x + arm, at.y}, kPickColor, 2.0f);
-    list.AddLine({at.x, at.y - arm}, {at.x, at.y + arm}, kPickColor, 2.0f);
-    list.AddText({at.x + arm, at.y - 2.0f * arm}, kPickColor, name);
-    places.push_back(at);
-  }
-  if (places.size() == 2) list.AddLine(places[0], places[1], kPickColor, 1.0f);
-}
-
-void show_divider(const PanelFacts& facts) {
-  const Stage& stage = facts.stage;
-  if (!stage.is_split() || !stage.frame(Stage::right)) return;
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const auto name = [&](Stage::Side side) {
-    return std::string(stage.pane(side).mode() ? name_of(*stage.pane(side).mode()) : "preview");
-  };
-  const auto put = [&](const std::string& label, float x) {
-    const ImVec2 size = ImGui::CalcTextSize(label.c_str());
-    const float margin = 4.0f * facts.scale;
-    const float y = display.y - size.y - 2.0f * margin;
-    list.AddRectFilled({x - margin, y - margin}, {x + size.x + margin, y + size.y + margin}, IM_COL32(25, 28, 33, 200));
-    list.AddText({x, y}, IM_COL32_WHITE, label.c_str());
-  };
-  const float gap = 12.0f * facts.scale;
-  if (!facts.divider) {
-    put(name(facts.right_alone ? Stage::right : Stage::left), 0.5f * display.x);
-    return;
-  }
-  const float x = static_cast<float>(*facts.divider) * display.x / static_cast<float>(facts.view.size.x);
-  list.AddLine({x, 0.0f}, {x, display.y}, IM_COL32(255, 255, 255, 200), 1.5f * facts.scale);
-  put(name(Stage::left), x - gap - ImGui::CalcTextSize(name(Stage::left).c_str()).x);
-  put(name(Stage::right), x + gap);
-}
-
-void show_keys(const PanelFacts& facts, PanelWishes& wishes) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
-  bool open = true;
-  ImGui::Begin("keys", &open,
-               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
-  for (const KeyEntry& entry : key_table()) {
-    if (!*entry.keys) continue;
-    text(entry.keys);
-    ImGui::SameLine(110.0f * facts.scale);
-    text(entry.what);
-  }
-  ImGui::End();
-  if (!open) wishes.commands.push_back(Command::keys);
-}
-
-void show_hint(const PanelFacts& facts) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const std::string line = facts.note.empty() ? "? shows the keys" : facts.note;
-  const ImVec2 size = ImGui::CalcTextSize(line.c_str());
-  const ImVec2 at{display.x - size.x - 12.0f * facts.scale, display.y - size.y - 8.0f * facts.scale};
-  const float margin = 5.0f * facts.scale;
-  list.AddRectFilled({at.x - margin, at.y - margin}, {at.x + size.x + margin, at.y + size.y + margin},
-                     IM_COL32(25, 28, 33, 200), 4.0f);
-  list.AddText(at, IM_COL32(225, 225, 225, 255), line.c_str());
-}
-
 bool section(const char* name) {
   return ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen);
 }
@@ -288,10 +228,7 @@ std::vector<std::string> colors_of(const SourceInfo& info) {
 
 PanelWishes show_panel(const PanelFacts& facts) {
   PanelWishes wishes;
-  mark_picks(facts);
-  show_divider(facts);
-  show_hint(facts);
-  if (facts.keys_shown) show_keys(facts, wishes);
+  show_overlays(facts, wishes);
   if (!facts.panel_shown) return wishes;
   const float margin = 10.0f * facts.scale;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -302,13 +239,20 @@ PanelWishes show_panel(const PanelFacts& facts) {
                ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar);
   ImGui::PushItemWidth(150.0f * facts.scale);
   show_cloud(facts, wishes);
+  show_building(facts, wishes);
   if (facts.stage.info()) {
     if (section("method")) {
       show_methods(facts, wishes);
       show_pace(facts, wishes);
+      show_selection(facts, wishes);
     }
-    if (section("points")) show_look(facts, wishes);
+    if (section("comparison")) show_comparison(facts, wishes);
+    if (section("points")) {
+      show_look(facts, wishes);
+      show_shading(facts, wishes);
+    }
     if (section("picked")) show_picks(facts);
+    if (section("files")) show_pictures(facts, wishes);
   }
   ImGui::PopItemWidth();
   ImGui::End();

@@ -7,11 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "render/frame/eye_dome.h"
 #include "src/run/view_run.h"
+#include "src/viewer/comparison.h"
 #include "src/viewer/describe_point.h"
 #include "src/viewer/keys.h"
 #include "src/viewer/pixel_reader.h"
 #include "src/viewer/stage.h"
+#include "src/viewer/tree_job.h"
 
 namespace stipple {
 
@@ -33,13 +36,21 @@ struct PanelFacts {
   std::span<const float> frame_ms;  // of the latest frames, the oldest first
   std::uint32_t budget = 0;
   BudgetPolicy policy;
+  ColorChoice color;
   double point_size = 1.0;
   std::uint32_t background = 0;
+  bool shaded = false;
+  EyeDomeOptions eye_dome;
   std::optional<int> divider;  // column of the picture, where two sides are seen
   bool right_alone = false;    // of two sides
+  const ReferenceComparison& comparison;
+  std::optional<std::array<std::size_t, 4>> box_counts;  // by SightedBox::State, where boxes are shown
   const std::optional<std::array<std::string, 3>>& under_cursor;
   std::span<const std::vector<std::string>> recent;  // inputs opened before
-  const std::string& note;                           // what happened last
+  const TreeJob& tree_job;
+  const std::string& built_tree;  // the last one; empty: none
+  bool can_build = false;         // there are files open that are no tree
+  const std::string& note;        // what happened last
   bool panel_shown = true;
   bool keys_shown = false;
   float scale = 1.0f;
@@ -49,10 +60,12 @@ struct PanelFacts {
 struct PanelWishes {
   std::vector<Command> commands;
   std::optional<std::pair<Mode, Stage::Side>> mode;
-  std::optional<std::string> color;
+  std::optional<ColorChoice> color;
   std::optional<double> point_size;
   std::optional<std::uint32_t> background;
+  std::optional<EyeDomeOptions> eye_dome;
   std::optional<BudgetPolicy> policy;
+  std::optional<glm::ivec2> picture;  // of this size
   std::optional<std::vector<std::string>> open;
   bool dismiss_error = false;
 };

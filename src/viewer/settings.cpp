@@ -39,6 +39,11 @@ double number_in(const Json& document, const char* key, double least, double mos
   return std::clamp(entry->get<double>(), least, most);
 }
 
+bool flag_in(const Json& document, const char* key, bool otherwise) {
+  const auto entry = document.find(key);
+  return entry != document.end() && entry->is_boolean() ? entry->get<bool>() : otherwise;
+}
+
 void write(const std::string& path, const Json& document) {
   if (path.empty()) return;
   std::error_code failed;
@@ -75,8 +80,10 @@ ViewerSettings read_settings(const std::string& path) {
   settings.background = static_cast<std::uint32_t>(number_in(document, "background", 0, 0xFFFFFF, settings.background));
   settings.point_size = number_in(document, "point_size", 1, 10, settings.point_size);
   settings.frames_per_second = number_in(document, "frames_per_second", 5, 120, settings.frames_per_second);
-  if (const auto shown = document.find("panel_shown"); shown != document.end() && shown->is_boolean())
-    settings.panel_shown = shown->get<bool>();
+  settings.eye_dome.strength = number_in(document, "edl_strength", 0.01, 10, settings.eye_dome.strength);
+  settings.eye_dome.radius = number_in(document, "edl_radius", 1, 10, settings.eye_dome.radius);
+  settings.shaded = flag_in(document, "edl", settings.shaded);
+  settings.panel_shown = flag_in(document, "panel_shown", settings.panel_shown);
   return settings;
 }
 
@@ -96,6 +103,9 @@ void write_settings(const std::string& path, const ViewerSettings& settings) {
   write(path, {{"background", settings.background},
                {"point_size", settings.point_size},
                {"frames_per_second", settings.frames_per_second},
+               {"edl", settings.shaded},
+               {"edl_strength", settings.eye_dome.strength},
+               {"edl_radius", settings.eye_dome.radius},
                {"panel_shown", settings.panel_shown}});
 }
 

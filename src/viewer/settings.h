@@ -5,12 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "render/frame/eye_dome.h"
+
 namespace stipple {
 
 struct ViewerSettings {
   std::uint32_t background = 0x808080;
   double point_size = 1.0;
   double frames_per_second = 30.0;
+  bool shaded = false;  // by eye-dome lighting
+  EyeDomeOptions eye_dome;
   bool panel_shown = true;
 
   bool operator==(const ViewerSettings&) const = default;

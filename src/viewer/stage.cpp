@@ -60,6 +60,18 @@ void Stage::set_point_size(double pixels) {
   }
 }
 
+void Stage::freeze(bool on) {
+  try {
+    for (Pane& pane : panes_) on ? pane.freeze() : pane.thaw();
+  } catch (const Error& e) {
+    error_ = e.what();
+  }
+}
+
+void Stage::begin_again() {
+  for (Pane& pane : panes_) pane.begin_again();
+}
+
 void Stage::take(const finished::Beginning& beginning) {
   info_ = beginning.info;
   if (!again_) preview_ = std::make_shared<Preview>();
@@ -109,6 +121,7 @@ void Stage::take(const finished::Failure& failure) {
 void Stage::show(Side side, const Pane::Content& content) {
   try {
     panes_[side].show(content, outdated_[side]);
+    freeze(false);
     outdated_[side] = false;
     if (content.mode) preview_.reset();
   } catch (const Error& e) {

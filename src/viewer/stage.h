@@ -27,6 +27,12 @@ class Stage {
   // Whether the right side is drawn.
   void split(bool on);
   void set_point_size(double pixels);
+  // The pictures begin anew, from nothing.
+  void begin_again();
+
+  // The points of the pictures stay, whatever the view, until there is something else to show or this is undone.
+  void freeze(bool on);
+  bool frozen() const { return panes_[left].frozen(); }
 
   // What the workshop has finished.
   void take(const finished::Beginning& beginning);

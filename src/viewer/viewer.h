@@ -1,4 +1,5 @@
-// The viewer: a window, a cloud, a camera, and the loop that ties them.
+// The viewer: a window, a cloud, a camera, and the loop that ties them. viewer.cpp is that loop and what loading
+// brings; viewer_events.cpp, viewer_commands.cpp, viewer_frames.cpp and viewer_pictures.cpp are what their names say.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 
 #include "render/frame/budget.h"
 #include "src/run/view_run.h"
+#include "src/viewer/comparison.h"
 #include "src/viewer/display.h"
 #include "src/viewer/flight.h"
 #include "src/viewer/gui.h"
@@ -20,27 +22,32 @@
 #include "src/viewer/rig.h"
 #include "src/viewer/settings.h"
 #include "src/viewer/stage.h"
+#include "src/viewer/tree_job.h"
 #include "src/viewer/window.h"
+#include "src/viewer/wires.h"
 #include "src/viewer/workshop.h"
 
 namespace stipple {
 
 struct ViewerOptions {
   std::vector<std::string> inputs;  // may be none: files can be dropped
-  std::string color;
-  std::optional<Mode> mode;  // none: hybrid, or hierarchical where the input is an octree on disk
+  ColorChoice color;
+  std::optional<Mode> mode;  // none: hybrid
   MethodOptions method;
   RasterizerKind rasterizer = RasterizerKind::compute;
   BudgetPolicy policy;
   double point_size = 1.0;
   double splat_size = 0.0;
   std::uint32_t background = 0x808080;
+  bool shaded = false;  // by eye-dome lighting
+  EyeDomeOptions eye_dome;
   std::optional<Camera> camera;    // to begin with; none: sees the whole cloud
   std::optional<CameraPath> path;  // to be flown on a key
   RecentInputs recent;
   bool panel_shown = true;
-  std::string screenshot;    // taken when nothing is left to draw; empty: none
-  bool with_panels = false;  // pictured as well
+  std::string screenshot;                     // taken when nothing is left to draw; empty: none
+  std::optional<glm::ivec2> screenshot_size;  // none: as large as the window is
+  bool with_panels = false;                   // pictured as well
   bool exit_after_screenshot = false;
 };
 
@@ -72,33 +79,47 @@ class Viewer {
   const std::vector<Pick>& picks() const { return picks_; }
   const std::optional<std::array<std::string, 3>>& under_cursor() const { return under_cursor_; }
   View view() const { return rig_.view(size_); }
+  const TreeJob& tree_job() const { return tree_job_; }
+  const std::string& built_tree() const { return built_tree_; }
   // Nothing moves, is loaded or left to draw.
   bool at_rest() const;
   // Pixels of the window that a pixel of the picture is wide and high while the camera moves.
   int resolution() const { return resolution_.divisor(); }
   // At which the right side begins.
-  int divider_column() const { return static_cast<int>(std::lround(divider_ * size_.x)); }
+  int divider_column() const { return divider_column(size_.x); }
   std::uint64_t frames_shown() const { return frames_shown_; }
+  const ReferenceComparison& comparison() const { return comparison_; }
   const std::string& note() const { return note_; }
 
  private:
+  int divider_column(int width) const { return static_cast<int>(std::lround(divider_ * width)); }
+
+  // Panels need a frame to learn of an event and one to lay themselves out.
+  static constexpr int kFramesAfterEvent = 3;
+
   void take_finished();
   void take(const finished::Beginning& beginning);
   void take(const finished::Cloud& cloud);
   void take(const finished::Failure& failure);
   void take(const finished::Description& description);
   void enter(const WorldBox& box, const Camera& home);
-  void reopen(const std::string& color);
+  void reopen(const ColorChoice& color);
 
   void take_event(const InputEvent& event);
   void press(const InputEvent& event);
   void blink();
+  void compare();
+  void freeze();
   bool shows_both() const;
   void follow(const Gesture& gesture);
   void fly();
   void face(double yaw_deg, double pitch_deg);
   void go_home();
   void next_color();
+  void hide_class();
+  void want_screenshot(const std::optional<glm::ivec2>& size);
+  void build_tree_of_inputs();
+  void take_tree();
   void record();
   void replay();
   void set_point_size(double pixels);
@@ -111,6 +132,11 @@ class Viewer {
 
   void show_frame();
   void draw_cloud();
+  void compare_frames();
+  void lay_wires();
+  std::optional<ReferencePainter::Subject> compared() const;
+  bool compares_soon() const;
+  void ask_for_reference();
   void notice_motion();
   bool moving() const;
   void learn_from(double ms, bool was_moving);
@@ -118,7 +144,11 @@ class Viewer {
   void show_panels();
   void grant(const PanelWishes& wishes);
   void set_policy(const BudgetPolicy& policy);
-  Display::Scene scene() const;
+  std::optional<EyeDomeOptions> shading() const;
+  // What is to be drawn: the window's view, or that of a screenshot of another size.
+  View wanted_view() const;
+  // Of a picture so many pixels wide.
+  Display::Scene scene(int width) const;
   std::uint32_t budget() const;
   void take_screenshot_if_due();
   void write_screenshot(const std::string& path);
@@ -144,9 +174,18 @@ class Viewer {
   std::optional<Camera> home_;
   double home_aspect_ = 1.0;
 
+  bool boxes_shown_ = false;
+  std::array<std::vector<WireEnd>, 2> wires_;  // of the sides, as they are shown
+  std::array<std::size_t, 4> box_counts_{};    // of the left side, by state
+  View frozen_view_;                           // when the stage was frozen
+  double frozen_reach_ = 1.0;                  // how far its pyramid is drawn, world units
+  ReferenceComparison comparison_;
+  std::array<const Texture2D*, 2> differences_{};  // of the sides, where they are to be shown
+
   std::optional<BudgetController> controller_;
   Resolution resolution_;
   Camera last_camera_;
+  View drawn_view_;              // of the last frame
   double moved_at_ = -1.0;       // window seconds
   double frame_seconds_ = 0.0;   // smoothed, while frames follow each other
   double last_frame_ = 0.0;      // when
@@ -169,6 +208,9 @@ class Viewer {
   bool keys_shown_ = false;
   std::string note_;
   std::string screenshot_;  // due
+  TreeJob tree_job_;
+  std::string built_tree_;  // by it, the last time
+  bool can_build_ = false;  // what is open is no tree
   bool quit_ = false;
 };
 

@@ -12,9 +12,9 @@ namespace stipple {
 // An even sample by index. The colours' range is that of the first batch: whatever comes first decides.
 class WatchedSource::Preview {
  public:
-  Preview(const SourceInfo& info, std::string color, PreviewSink sink)
+  Preview(const SourceInfo& info, ColorChoice choice, PreviewSink sink)
       : info_(info),
-        color_(std::move(color)),
+        choice_(std::move(choice)),
         sink_(std::move(sink)),
         step_(std::max<std::uint64_t>(1, (info.point_count + kPreviewPoints - 1) / kPreviewPoints)) {}
 
@@ -31,10 +31,10 @@ class WatchedSource::Preview {
     if (preview.ids.empty()) return;
     const std::lock_guard lock(mutex_);
     // Threads that wait in map_colors() must not take another batch: they hold the lock
-    if (!map_) tbb::this_task_arena::isolate([&] { map_ = map_colors(sample, color_); });
+    if (!map_) tbb::this_task_arena::isolate([&] { map_ = choice_.complete(map_colors(sample, choice_.attribute)); });
     preview.colors = *map_;
     preview.points.resize(preview.ids.size());
-    pack_points(*map_, sample.positions, sample.find(map_->attribute), 0, preview.points);
+    pack_points(*map_, sample.positions, sample.columns, 0, preview.points);
     sink_(std::move(preview));
   }
 
@@ -47,18 +47,18 @@ class WatchedSource::Preview {
   }
 
   const SourceInfo& info_;
-  std::string color_;
+  ColorChoice choice_;
   PreviewSink sink_;
   std::uint64_t step_;
   std::mutex mutex_;
   std::optional<ColorMap> map_;
 };
 
-WatchedSource::WatchedSource(const PointSource& source, ReadWatch& watch, std::string color, PreviewSink sink)
+WatchedSource::WatchedSource(const PointSource& source, ReadWatch& watch, ColorChoice choice, PreviewSink sink)
     : source_(source), watch_(watch) {
   watch_.points = 0;
   watch_.total = source.info().point_count;
-  if (sink) preview_ = std::make_unique<Preview>(source.info(), std::move(color), std::move(sink));
+  if (sink) preview_ = std::make_unique<Preview>(source.info(), std::move(choice), std::move(sink));
 }
 
 WatchedSource::~WatchedSource() = default;

@@ -40,9 +40,9 @@ class WatchedSource final : public PointSource {
   // About as many points go to the sink.
   static constexpr std::uint64_t kPreviewPoints = 400'000;
 
-  // All must outlive it. `sink` is called from several threads, one at a time; null: no preview. `color` as
-  // choose_color() gives it.
-  WatchedSource(const PointSource& source, ReadWatch& watch, std::string color, PreviewSink sink);
+  // All must outlive it. `sink` is called from several threads, one at a time; null: no preview. The
+  // attribute of `choice` as choose_color() gives it.
+  WatchedSource(const PointSource& source, ReadWatch& watch, ColorChoice choice, PreviewSink sink);
   ~WatchedSource() override;
 
   const SourceInfo& info() const override { return source_.info(); }

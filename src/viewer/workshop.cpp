@@ -24,7 +24,7 @@ void check_room(const SourceInfo& info, std::uint64_t bytes_per_point, const Mem
   if (bytes <= limits.main) return;
   throw Error(fmt::format(
       "{}: its {} points would take about {:.1f} GB of memory, and {:.1f} are free. Build an octree (stipple "
-      "build) and open that: mode hierarchical draws it from disk.",
+      "build) and open that: mode hybrid draws it from disk.",
       info.path, info.point_count, static_cast<double>(bytes) * 1e-9, static_cast<double>(limits.main) * 1e-9));
 }
 
@@ -165,7 +165,8 @@ void Workshop::open_now() {
 void Workshop::open_files() {
   const auto source = open_source(opening_.inputs);
   const SourceInfo& info = source->info();
-  const std::string color = choose_color(info.schema, opening_.color);
+  ColorChoice color = opening_.color;
+  color.attribute = choose_color(info.schema, color.attribute);
   check_room(info, kBytesPerPoint, opening_.method.limits);
   deliver(finished::Beginning{info});
   const WatchedSource watched(*source, watch_, color,
@@ -178,7 +179,7 @@ void Workshop::open_octree() {
   deliver_cloud(std::make_shared<Dataset>(
       open_dataset(opening_.inputs, opening_.color, {.points = false, .octree = true}, opening_.method.limits)));
   // The first picture comes from disk, whatever it is to be drawn by when all points are there
-  if (opening_.mode != Mode::hierarchical) make_now(Mode::hierarchical);
+  if (needs_of(opening_.mode).points) make_now(Mode::hybrid);
 }
 
 void Workshop::read_all_points() {
@@ -192,7 +193,7 @@ void Workshop::read_all_points() {
   whole.colors = dataset_->colors;
   whole.tree = dataset_->tree;
   whole.root = dataset_->root;
-  whole.points = make_point_set(load_cloud(watched, attributes_for_color(whole.colors.attribute)), whole.colors);
+  whole.points = make_point_set(load_cloud(watched, attribute_names_of(whole.colors, whole.info.schema)), whole.colors);
   whole.points.ids = ids_of(source.nodes());
   whole.bytes_to_load = whole.tree->bytes_read();
   deliver_cloud(std::make_shared<Dataset>(std::move(whole)));
@@ -231,6 +232,7 @@ void Workshop::describe_now(std::uint32_t id, const glm::ivec3& position) {
   try {
     values = dataset_->tree ? describe_point(*dataset_->tree, id, position)
                             : describe_point(*open_source(opening_.inputs), id);
+    if (dataset_->octree) values.insert(values.begin(), {"node", node_of(*dataset_->octree, id)});
   } catch (const Error& e) {
     values = {{"", e.what()}};
   }

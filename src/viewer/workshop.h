@@ -26,7 +26,7 @@ namespace stipple {
 // What to open.
 struct Opening {
   std::vector<std::string> inputs;
-  std::string color;  // as --color takes it; empty: the first there is
+  ColorChoice color;  // no attribute: the first there is
   Mode mode = Mode::hybrid;
   MethodOptions method;
   double aspect = 1.0;  // of the window: width over height

@@ -138,6 +138,44 @@ TEST_F(RenderCommand, DrawingWhileLoadingNamesWhatItCannotDo) {
   EXPECT_FALSE(fs::exists(path("out.png")));
 }
 
+TEST_F(RenderCommand, HiddenClassesAreDrawnByNoMode) {
+  const Image all = picture("all.png", "--color classification");
+  const std::string hide = "--color classification --ramp turbo --hide-class 2,6 --stats " + path("stats.json ");
+  const Image reference = picture("reference.png", hide + "--mode brute-force");
+  EXPECT_NE(reference.rgb, all.rgb);
+  EXPECT_EQ(json_file(path("stats.json")).at("hidden_classes"), (Json{2, 6}));
+  EXPECT_EQ(json_file(path("stats.json")).at("ramp"), "turbo");
+  const Image exact = picture("exact.png", hide + "--mode reference");
+  EXPECT_GT(psnr_db(mean_squared_error(exact, reference)), 35.0);
+  for (const std::string mode : {"unstructured", "hierarchical", "hybrid"})
+    EXPECT_EQ(picture(mode + ".png", hide + "--budget 5k --mode " + mode).rgb, reference.rgb) << mode;
+  // Whatever the colour, from memory or from disk
+  const std::string tree = path("tree");
+  ASSERT_EQ(run_stipple(folder_, "build " + city_ + " -o " + tree).code, 0);
+  const auto of_tree = [&](const std::string& mode) {
+    const std::string name = path("tree-" + mode + ".png");
+    const Outcome outcome = run_stipple(
+        folder_, "render " + tree + " -o " + name + " --size 320x180 --color height --hide-class 2,6 --mode " + mode);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return read_png(name);
+  };
+  const Image from_memory = of_tree("brute-force");
+  EXPECT_EQ(of_tree("hybrid").rgb, from_memory.rgb);
+  EXPECT_EQ(of_tree("hierarchical").rgb, from_memory.rgb);
+  for (const char* wrong : {"--hide-class 256", "--hide-class ground", "--ramp rainbow"})
+    EXPECT_EQ(run_stipple(folder_, "render " + city_ + " -o " + path("no.png ") + wrong).code, 2) << wrong;
+}
+
+TEST_F(RenderCommand, EyeDomeLightingIsSaidInTheStats) {
+  const Image plain = picture("plain.png", "--stats " + path("plain.json"));
+  const Image shaded = picture("shaded.png", "--edl --edl-strength 2 --stats " + path("shaded.json"));
+  EXPECT_NE(shaded.rgb, plain.rgb);
+  EXPECT_TRUE(json_file(path("plain.json")).at("edl").is_null());
+  EXPECT_EQ(json_file(path("shaded.json")).at("edl").at("strength"), 2.0);
+  for (const char* wrong : {"--edl --mode reference", "--edl-radius 2", "--edl --edl-strength none"})
+    EXPECT_EQ(run_stipple(folder_, "render " + city_ + " -o " + path("no.png ") + wrong).code, 2) << wrong;
+}
+
 TEST_F(RenderCommand, CompareSaysInfForTwoConvergedModes) {
   picture("a.png", "--mode hierarchical --budget 5k");
   picture("b.png", "--mode unstructured --budget 7k --seed 99");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "tests/octree/las_fixture.h"
 
@@ -132,6 +133,43 @@ TEST(Colorize, OfSeveralComponentsTheFirstCounts) {
       colors_of(column_of("normal", ScalarType::f64, 3, std::vector<double>{0, 9, 9, 0, 1, 1, 5, 0, 0}));
   EXPECT_EQ(colors[0], colors[1]);
   EXPECT_NE(colors[0], colors[2]);
+}
+
+TEST(Colorize, PointsOfHiddenClassesAreMarkedWhateverTheColour) {
+  Cloud cloud = cloud_with(column_of("classification", ScalarType::u8, 1, std::vector<std::uint8_t>{2, 7, 200, 18}));
+  for (const char* attribute : {"height", "classification"}) {
+    ColorChoice choice(attribute);
+    choice.hidden.set(7).set(200);
+    const ColorMap map = choice.complete(map_colors(cloud, attribute));
+    EXPECT_EQ(attribute_names_of(map, {cloud.columns[0].attribute}), Strings{"classification"});
+    const PointSet set = make_point_set(cloud, map);
+    for (const auto& [i, hidden] : {std::pair{0u, false}, {1u, true}, {2u, true}, {3u, false}})
+      EXPECT_EQ(set.points[i].rgba >> 24, hidden ? 0u : 255u) << attribute << ' ' << i;
+  }
+  EXPECT_TRUE(attribute_names_of({.attribute = "height"}, {cloud.columns[0].attribute}).empty());
+}
+
+TEST(Colorize, EveryRampGoesFromOneColourToAnother) {
+  std::set<std::vector<std::uint32_t>> all;
+  for (const Ramp ramp : all_ramps()) {
+    EXPECT_EQ(ramp_named(name_of(ramp)), ramp);
+    const Cloud cloud = cloud_with(column_of("gps-time", ScalarType::f64, 1, std::vector<double>{0, 0.25, 0.5, 1}));
+    std::vector<std::uint32_t> colors;
+    for (const PackedPoint& point : make_point_set(cloud, {.attribute = "gps-time", .ramp = ramp}).points)
+      colors.push_back(point.rgba);
+    EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), 4u) << name_of(ramp);
+    all.insert(colors);
+  }
+  EXPECT_EQ(all.size(), all_ramps().size());
+  EXPECT_FALSE(ramp_named("rainbow"));
+}
+
+TEST(Colorize, TheRampOfTheHeightFieldPaperIsBlueYellowRed) {
+  const Cloud cloud = cloud_with(column_of("gps-time", ScalarType::f64, 1, std::vector<double>{0, 0.5, 1}));
+  const PointSet set = make_point_set(cloud, {.attribute = "gps-time", .ramp = Ramp::height_field});
+  EXPECT_EQ(set.points[0].rgba, 0xFFFF0000u);
+  EXPECT_EQ(set.points[1].rgba, 0xFF00FFFFu);
+  EXPECT_EQ(set.points[2].rgba, 0xFF0000FFu);
 }
 
 TEST(Colorize, AnEmptyCloudStaysEmpty) {

@@ -135,17 +135,17 @@ TEST(Reference, SpansTheWholeRangeOfPositions) {
   PointSet set;
   const std::int32_t low = std::numeric_limits<std::int32_t>::min();
   const std::int32_t high = std::numeric_limits<std::int32_t>::max();
-  set.points.push_back({{high, high, high}, 1});
-  set.points.push_back({{low, high, low}, 2});
-  set.points.push_back({{low, low, low}, 3});
+  set.points.push_back({{high, high, high}, 0xFF000001u});
+  set.points.push_back({{low, high, low}, 0xFF000002u});
+  set.points.push_back({{low, low, low}, 0xFF000003u});
   // From just behind the low corner differences of positions reach 2^32; the sides are seen half a unit short of 6 and
   // 2
   View view = unit_view();
   view.eye = {-0.5, -2147483649.0, -0.5};
   const FrameData frame = render_reference(set, view);
   ASSERT_EQ(covered(frame), (Pixels{{5, 2}, {2, 5}}));
-  EXPECT_EQ(frame.rgba[at(frame, 5, 2)], 1u);
-  EXPECT_EQ(frame.rgba[at(frame, 2, 5)], 2u);
+  EXPECT_EQ(frame.rgba[at(frame, 5, 2)], 0xFF000001u);
+  EXPECT_EQ(frame.rgba[at(frame, 2, 5)], 0xFF000002u);
   EXPECT_EQ(frame.depth[at(frame, 5, 2)], 4294967296.0f);
 }
 
@@ -153,7 +153,7 @@ TEST(Reference, FarFromTheOriginNothingIsLost) {
   // A georeferenced cloud in millimetres, seen from a metre away: one pixel is a millimetre
   PointSet set;
   set.grid = {{637'000.0, 851'000.0, 400.0}, glm::dvec3(0.001)};
-  for (int x = 0; x < 8; ++x) set.points.push_back({{x - 4, 1000, 0}, static_cast<std::uint32_t>(x)});
+  for (int x = 0; x < 8; ++x) set.points.push_back({{x - 4, 1000, 0}, 0xFF000000u});
   View view = unit_view();
   view.eye = set.grid.offset + glm::dvec3(-0.0005, 0, 0);
   view.cot_x = view.cot_y = 250.0;
@@ -166,7 +166,7 @@ struct Scene {
   View view;
 };
 
-// Points in a cube around the eye on a coarse grid, so that many share depth and place.
+// Points in a cube around the eye on a coarse grid, so that many share depth and place; every tenth is not to be drawn.
 Scene random_scene(std::size_t count) {
   Scene scene;
   scene.set.grid = {{10.0, -20.0, 5.0}, {0.5, 0.25, 0.5}};
@@ -174,7 +174,7 @@ Scene random_scene(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto cell = [&] { return static_cast<std::int32_t>(random() % 200) - 100; };
     const glm::ivec3 position(cell(), cell(), cell());
-    scene.set.points.push_back({position, static_cast<std::uint32_t>(random())});
+    scene.set.points.push_back({position, i % 10 == 9 ? 0 : 0xFF000000u | static_cast<std::uint32_t>(random())});
     scene.set.ids.push_back(static_cast<std::uint32_t>(i));
   }
   std::shuffle(scene.set.ids.begin(), scene.set.ids.end(), random);
@@ -190,6 +190,7 @@ FrameData naive(const Scene& scene, double size) {
   const glm::dvec3 eye = scene.set.grid.grid_from_world(view.eye);
   for (std::size_t i = 0; i < scene.set.size(); ++i) {
     const PackedPoint& point = scene.set.points[i];
+    if (point.rgba >> 24 == 0) continue;
     const glm::dvec3 r = (glm::dvec3(point.position) - eye) * scene.set.grid.scale;
     const double depth = glm::dot(view.forward, r);
     const double x = view.size.x / 2.0 * (1.0 + glm::dot(view.right, r) * view.cot_x / depth);

@@ -22,7 +22,7 @@ TEST(CommandLine, SaysAllThatThePictureDependsOn) {
                                                  .raster = "compute",
                                                  .camera = {.eye = {-0.1, 2, 3}, .target = {637000.25, 5, 6}},
                                                  .size = {640, 480},
-                                                 .color = "point source id",
+                                                 .colors = {.attribute = "point source id"},
                                                  .point_size = 2.0,
                                                  .background = 0x0A0B0C});
   EXPECT_EQ(text,

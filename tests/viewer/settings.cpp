@@ -15,7 +15,12 @@ namespace {
 TEST(ViewerSettings, ComeBackAsTheyWereWritten) {
   const ScratchFolder folder;
   const std::string path = folder.path("not/there/yet/viewer.json");
-  const ViewerSettings settings{.background = 0x102030, .point_size = 3, .frames_per_second = 24, .panel_shown = false};
+  const ViewerSettings settings{.background = 0x102030,
+                                .point_size = 3,
+                                .frames_per_second = 24,
+                                .shaded = true,
+                                .eye_dome = {.strength = 1.5, .radius = 3},
+                                .panel_shown = false};
   write_settings(path, settings);
   EXPECT_EQ(read_settings(path), settings);
 }
