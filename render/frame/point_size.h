@@ -18,6 +18,8 @@ struct PointSize {
   // Implicit: a size in pixels is what most have to say.
   PointSize(double in_pixels, double in_world = 0.0) : pixels(in_pixels), world(in_world) {}
 
+  bool operator==(const PointSize&) const = default;
+
   // Whether a point may cover more than the pixel it falls into, or less.
   bool varies() const { return pixels != 1.0 || world > 0.0; }
   // Whether a point may cover several pixels.

@@ -9,6 +9,7 @@
 
 #include "render/frame/camera.h"
 #include "render/frame/frame_data.h"
+#include "render/frame/point_size.h"
 #include "render/store/dataset.h"
 
 namespace stipple {
