@@ -131,7 +131,9 @@ TEST_F(ViewerWindow, TakesTheMethodsOfEarlierViewersAndGoesBack) {
       return viewer_->stage().pane().mode() == wanted && viewer_->at_rest();
     })) << key;
     // lod ends at its budget, which the time that frames take decides
-    if (mode != Mode::lod) EXPECT_EQ(viewer_->picture().rgb, hybrid.rgb) << key;
+    if (mode != Mode::lod) {
+      EXPECT_EQ(viewer_->picture().rgb, hybrid.rgb) << key;
+    }
   }
 }
 
