@@ -103,7 +103,8 @@ Selection Hierarchical::select(std::uint32_t budget) {
   request_up_to(supply_->read_ahead(budget));
   std::vector<PointPiece> pieces = supply_->collect(budget);
   // What takes less work to draw stands together
-  const auto others = std::ranges::stable_partition(pieces, &PointPiece::one_pixel).begin();
+  const auto others =
+      std::stable_partition(pieces.begin(), pieces.end(), [](const PointPiece& piece) { return piece.one_pixel; });
   std::uint32_t of_one_pixel = 0;
   for (auto piece = pieces.begin(); piece != others; ++piece) of_one_pixel += piece->count;
   for (const PointPiece& piece : pieces) selection.points += piece.count;
