@@ -35,7 +35,7 @@ class GpuBuffer {
   void bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name()); }
   void bind_storage(GLuint binding, std::size_t offset, std::size_t bytes) const;
   void bind_uniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, name()); }
-  // For shaders that read alone, which is a fifth faster on Mesa's software renderer (docs/decisions/0013). `format` as
+  // For shaders that read alone, which is a fifth faster on Mesa's software renderer (docs/decisions/0015). `format` as
   // in glTextureBuffer, the same whenever it is called.
   void bind_texels(GLuint unit, GLenum format) const;
 

@@ -14,7 +14,7 @@ Program compile_raster_over_picture(std::vector<ShaderDefine> defines) {
   return compile_raster(defines);
 }
 
-void dispatch_points(const SourcePrograms& programs, std::span<const DrawItem> items) {
+void dispatch_points(SourcePrograms& programs, std::span<const DrawItem> items) {
   for (const DrawItem& item : items) {
     programs.use_for(item);
     if (const auto* vertices = std::get_if<CarriedVertices>(&item)) {

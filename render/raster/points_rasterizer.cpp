@@ -9,7 +9,7 @@ Program compile_points(const std::vector<ShaderDefine>& defines) {
   return Program::graphics("raster_points_vertex.glsl", "raster_points_fragment.glsl", defines);
 }
 
-void draw_points(const SourcePrograms& programs, std::span<const DrawItem> items) {
+void draw_points(SourcePrograms& programs, std::span<const DrawItem> items) {
   for (const DrawItem& item : items) {
     programs.use_for(item);
     if (const auto* vertices = std::get_if<CarriedVertices>(&item)) {

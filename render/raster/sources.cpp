@@ -64,9 +64,21 @@ void bind(const CarriedIndices& carried) {
 
 }  // namespace
 
-void SourcePrograms::use_for(const DrawItem& item) const {
+Program SourcePrograms::compile(std::size_t kind, bool splats) const {
+  // In the order of DrawItem
+  constexpr std::array<const char*, std::variant_size_v<DrawItem>> kSources{
+      "SOURCE_RANGE", "SOURCE_VERTICES", "SOURCE_GRID", "SOURCE_PICKS", "SOURCE_INDICES"};
+  std::vector<ShaderDefine> defines{{kSources[kind]}, {pass_}};
+  if (splats) defines.push_back({"SPLATS"});
+  return make_(defines);
+}
+
+void SourcePrograms::use_for(const DrawItem& item) {
   const auto* range = std::get_if<PointRange>(&item);
-  (range && range->one_pixel && range_of_pixels_ ? *range_of_pixels_ : programs_[item.index()]).use();
+  const bool of_pixels = splats_ && range && range->one_pixel;
+  std::optional<Program>& program = of_pixels ? range_of_pixels_ : programs_[item.index()];
+  if (!program) program.emplace(compile(item.index(), splats_ && !of_pixels));
+  program->use();
   std::visit([](const auto& each) { bind(each); }, item);
 }
 

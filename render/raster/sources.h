@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/gpu/program.h"
@@ -11,27 +13,25 @@
 
 namespace stipple {
 
-// One program per kind of item, made from the same shader files with another define (shaders/point_source.glsl).
+// One program per kind of item, made from the same shader files with another define (shaders/point_source.glsl) when
+// the first of its kind is drawn: few kinds ever are.
 class SourcePrograms {
  public:
+  using Make = std::function<Program(const std::vector<ShaderDefine>&)>;
   // `make` compiles a variant from its defines. `splats`: points may be larger or smaller than a pixel.
-  template <class Make>
-  SourcePrograms(const std::string& pass, bool splats, Make make) {
-    const auto compile = [&](const char* source, bool with_splats) {
-      std::vector<ShaderDefine> defines{{source}, {pass}};
-      if (with_splats) defines.push_back({"SPLATS"});
-      return make(defines);
-    };
-    programs_ = {compile("SOURCE_RANGE", splats), compile("SOURCE_VERTICES", splats), compile("SOURCE_GRID", splats),
-                 compile("SOURCE_PICKS", splats), compile("SOURCE_INDICES", splats)};
-    if (splats) range_of_pixels_.emplace(compile("SOURCE_RANGE", false));
-  }
+  SourcePrograms(std::string pass, bool splats, Make make)
+      : pass_(std::move(pass)), splats_(splats), make_(std::move(make)) {}
 
   // Uses the program for this item and binds the item's points to it.
-  void use_for(const DrawItem& item) const;
+  void use_for(const DrawItem& item);
 
  private:
-  std::array<Program, std::variant_size_v<DrawItem>> programs_;
+  Program compile(std::size_t kind, bool splats) const;
+
+  std::string pass_;
+  bool splats_;
+  Make make_;
+  std::array<std::optional<Program>, std::variant_size_v<DrawItem>> programs_;
   std::optional<Program> range_of_pixels_;  // for PointRange::one_pixel
 };
 

@@ -5,7 +5,7 @@
 
 #include "octree/core/error.h"
 
-namespace stipple::test {
+namespace stipple::test::bench_compare {
 namespace {
 
 Json document(const std::string& part, const std::vector<double>& runs) {
@@ -49,4 +49,4 @@ TEST(CompareBenches, NamesTheFileThatIsNone) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::bench_compare

@@ -4,7 +4,7 @@
 
 #include "tests/octree/las_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::camera_file {
 namespace {
 
 class CameraFile : public testing::Test {
@@ -103,4 +103,4 @@ TEST_F(CameraFile, AMissingFileIsNamed) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::camera_file

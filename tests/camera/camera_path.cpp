@@ -5,7 +5,7 @@
 #include "src/camera/camera_file.h"
 #include "tests/octree/las_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::camera_path {
 namespace {
 
 CameraPath path_through(const std::vector<std::pair<double, glm::dvec3>>& eyes) {
@@ -132,4 +132,4 @@ TEST_F(PathFile, OneKindIsNotTakenForTheOther) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::camera_path

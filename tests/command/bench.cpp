@@ -7,7 +7,7 @@
 #include "render/method/method.h"
 #include "tests/command/run_stipple.h"
 
-namespace stipple::test {
+namespace stipple::test::command_bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,4 +144,4 @@ TEST(BenchCommand, WrongUsageNamesTheOption) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::command_bench

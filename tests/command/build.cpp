@@ -15,7 +15,7 @@
 
 #include "tests/command/run_stipple.h"
 
-namespace stipple::test {
+namespace stipple::test::command_build {
 namespace {
 
 namespace fs = std::filesystem;
@@ -222,4 +222,4 @@ TEST_F(BuildCommand, AnInterruptionLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::command_build

@@ -7,7 +7,7 @@
 #include "tests/octree/potree2_files.h"
 #include "tests/octree/stream_build_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::command_check {
 namespace {
 
 TEST(CheckCommand, AWholeTreeIsATableAndExitCodeZero) {
@@ -124,4 +124,4 @@ TEST(TreeCommands, RenderTakesATree) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::command_check

@@ -5,7 +5,7 @@
 
 #include "tests/command/run_stipple.h"
 
-namespace stipple::test {
+namespace stipple::test::command_node_files {
 namespace {
 
 Json info_of(const ScratchFolder& folder, const std::string& arguments) {
@@ -101,4 +101,4 @@ TEST(NodeFilesCommands, RenderOfATreeThatLacksANodeIsExitCodeOne) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::command_node_files

@@ -4,7 +4,7 @@
 #include "src/cli/cli.h"
 #include "src/json/json.h"
 
-namespace stipple {
+namespace stipple::test::command_parse {
 namespace {
 
 // The message of the UsageError that `call` throws.
@@ -93,4 +93,4 @@ TEST(Format, NumbersThatJsonLacksAreStrings) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::command_parse

@@ -11,7 +11,7 @@
 #include "src/cli/cli.h"
 #include "src/json/json.h"
 
-namespace stipple {
+namespace stipple::test::command_program {
 namespace {
 
 namespace fs = std::filesystem;
@@ -163,4 +163,4 @@ TEST_F(Program, SceneWritesWhatInfoReads) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::command_program

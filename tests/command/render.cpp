@@ -9,7 +9,7 @@
 #include "tests/command/run_stipple.h"
 #include "tests/measure/npy_reader.h"
 
-namespace stipple::test {
+namespace stipple::test::command_render {
 namespace {
 
 namespace fs = std::filesystem;
@@ -406,4 +406,4 @@ TEST_F(RenderCommand, WhatDoesNotFitIsRefusedBeforeItIsRead) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::command_render

@@ -8,7 +8,7 @@
 #include "render/measure/image.h"
 #include "tests/command/run_stipple.h"
 
-namespace stipple::test {
+namespace stipple::test::command_study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -187,7 +187,8 @@ TEST_F(StudyRegimes, WhileLoadingThePictureFillsWithWhatIsRead) {
   }
   EXPECT_EQ(last.size(), 2u * 2u);  // unstructured and hybrid
   for (const auto& [curve, row] : last) EXPECT_EQ(row.at("identical"), "1") << curve;
-  for (const Json& row : json_file(path("out/study.json")).at("summary")) {
+  const Json study = json_file(path("out/study.json"));
+  for (const Json& row : study.at("summary")) {
     EXPECT_EQ(row.at("loaded").is_null(), row.at("regime") != "loading");
     if (row.at("regime") == "loading") {
       EXPECT_EQ(row.at("loaded").at("points"), 20'000) << row.dump();
@@ -382,4 +383,4 @@ TEST_F(StudyCommand, AFolderThatCannotBeMadeIsAFailureThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::command_study

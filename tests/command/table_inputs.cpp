@@ -6,7 +6,7 @@
 #include "tests/command/run_stipple.h"
 #include "tests/read/read_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::command_table_inputs {
 namespace {
 
 class TableInputs : public testing::Test {
@@ -124,4 +124,4 @@ TEST_F(TableInputs, InfoNamesFormatVersionAndEncoding) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::command_table_inputs

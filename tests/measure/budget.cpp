@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace stipple {
+namespace stipple::test::measure_budget {
 namespace {
 
 // A machine that needs `fixed` ms a frame and `per_million` ms for a million points.
@@ -59,4 +59,4 @@ TEST(Budget, FramesWithoutPointsChangeNothingWrong) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::measure_budget

@@ -8,7 +8,7 @@
 
 #include "octree/core/error.h"
 
-namespace stipple {
+namespace stipple::test::measure_camera {
 namespace {
 
 constexpr double kNear = 0.01;
@@ -87,4 +87,4 @@ TEST(MakeView, ImpossibleCamerasAreUsageErrors) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::measure_camera

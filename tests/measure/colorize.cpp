@@ -6,7 +6,7 @@
 
 #include "tests/octree/las_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::measure_colorize {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -213,4 +213,4 @@ TEST(ChooseColor, OnlyTheAttributeIsRead) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::measure_colorize

@@ -5,7 +5,7 @@
 #include "octree/core/error.h"
 #include "render/measure/psnr.h"
 
-namespace stipple {
+namespace stipple::test::measure_error_parts {
 namespace {
 
 using Ids = std::vector<std::uint32_t>;
@@ -56,4 +56,4 @@ TEST(ShownPointsTest, HoldsWhatWasAddedAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::measure_error_parts

@@ -7,7 +7,7 @@
 #include "octree/core/error.h"
 #include "tests/measure/made_pictures.h"
 
-namespace stipple::test {
+namespace stipple::test::measure_flicker {
 namespace {
 
 const glm::ivec2 kSize(50, 40);
@@ -80,4 +80,4 @@ TEST(Flicker, NeedsPicturesOfOneSizeAndAnIdForEachPixel) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::measure_flicker

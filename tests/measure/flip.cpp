@@ -10,7 +10,7 @@
 #include "render/measure/ssim.h"
 #include "tests/measure/made_pictures.h"
 
-namespace stipple::test {
+namespace stipple::test::measure_flip {
 namespace {
 
 // The mean of the error map that the authors' C++ implementation gives (FLIP.h, version 1.6, without CUDA, 67 pixels
@@ -101,4 +101,4 @@ TEST(Lab, WhiteAndBlackAreTheEndsOfLightness) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::measure_flip

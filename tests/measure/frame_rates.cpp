@@ -8,7 +8,7 @@
 #include "octree/core/error.h"
 #include "render/reference/reference.h"
 
-namespace stipple {
+namespace stipple::test::measure_frame_rates {
 namespace {
 
 const glm::ivec2 kSize(40, 30);
@@ -233,4 +233,4 @@ TEST(FrameRates, FramesOfDifferentSizesCannotBeCompared) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::measure_frame_rates

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace stipple::test {
+namespace stipple::test::measure_insertion {
 namespace {
 
 // Ids by slot, after new points first, first + 1, ...
@@ -77,4 +77,4 @@ TEST(Insertion, AnyStretchIsAnEvenSampleOfWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::measure_insertion

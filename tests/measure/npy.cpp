@@ -6,7 +6,7 @@
 #include "tests/measure/npy_reader.h"
 #include "tests/octree/las_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::measure_npy {
 namespace {
 
 TEST(Npy, DataBeginAtAMultipleOf64AfterAHeaderThatEndsInANewline) {
@@ -57,4 +57,4 @@ TEST(Npy, AFolderThatIsMissingIsNamedAndNothingIsLeft) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::measure_npy

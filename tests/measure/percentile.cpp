@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stipple {
+namespace stipple::test::measure_percentile {
 namespace {
 
 TEST(Percentile, IsTheNearestRank) {
@@ -28,4 +28,4 @@ TEST(Percentile, OfOneValueIsThatValueAndOfNoneZero) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::measure_percentile

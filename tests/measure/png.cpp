@@ -9,7 +9,7 @@
 #include "octree/core/error.h"
 #include "render/measure/image.h"
 
-namespace stipple {
+namespace stipple::test::measure_png {
 namespace {
 
 namespace fs = std::filesystem;
@@ -172,4 +172,4 @@ TEST(Compose, PutsBackgroundWhereThereIsNoPoint) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::measure_png

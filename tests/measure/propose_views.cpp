@@ -8,7 +8,7 @@
 
 #include "render/store/dataset.h"
 
-namespace stipple {
+namespace stipple::test::measure_propose_views {
 namespace {
 
 PointSet points_at(const std::vector<glm::ivec3>& positions, const Grid& grid) {
@@ -174,4 +174,4 @@ TEST(ProposeCameras, LowStandsOutsideOfTheGroundAndSeesPartOfIt) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::measure_propose_views

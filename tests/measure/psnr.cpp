@@ -6,7 +6,7 @@
 
 #include "octree/core/error.h"
 
-namespace stipple {
+namespace stipple::test::measure_psnr {
 namespace {
 
 Image flat(const glm::ivec2& size, std::uint8_t value) {
@@ -58,4 +58,4 @@ TEST(Psnr, PicturesOfDifferentSizesCannotBeCompared) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::measure_psnr

@@ -10,7 +10,7 @@
 
 #include "octree/core/error.h"
 
-namespace stipple {
+namespace stipple::test::measure_reference {
 namespace {
 
 // 8 x 8 pixels; looks along +y from the origin so that the plane y = 4 has exactly one unit a pixel: the point
@@ -245,4 +245,4 @@ TEST(Reference, DoesNotDependOnThreadsOrOrder) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::measure_reference

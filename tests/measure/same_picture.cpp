@@ -11,7 +11,7 @@
 #include "tests/measure/point_partners.h"
 #include "tests/octree/node_files.h"
 
-namespace stipple {
+namespace stipple::test::measure_same_picture {
 namespace {
 
 using test::PointPartners;
@@ -253,4 +253,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& twins) { return twins.param.name; });
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::measure_same_picture

@@ -7,7 +7,7 @@
 #include "octree/core/error.h"
 #include "tests/measure/made_pictures.h"
 
-namespace stipple::test {
+namespace stipple::test::measure_ssim {
 namespace {
 
 // scikit-image 0.19.3 (Debian 12), on the bytes of made_pairs():
@@ -69,4 +69,4 @@ TEST(Ssim, NeedsAWholeWindowAndEqualSizes) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::measure_ssim

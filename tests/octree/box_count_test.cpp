@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-namespace stipple {
+namespace stipple::test::octree_box_count_test {
 namespace {
 
 std::vector<CodedPoint> sorted_points(std::size_t count, int shift, unsigned seed) {
@@ -40,4 +40,4 @@ TEST(BoxCount, ProfileOfNothingIsZero) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_box_count_test

@@ -11,7 +11,7 @@
 #include "octree/build/sampling.h"
 #include "tests/octree/octree_clouds.h"
 
-namespace stipple {
+namespace stipple::test::octree_build_octree_test {
 namespace {
 
 // Small, so that small clouds have many levels, chunks and clusters.
@@ -215,4 +215,4 @@ TEST(Octree, PrefixOfAClusterIsAnEvenSample) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_build_octree_test

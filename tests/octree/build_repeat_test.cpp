@@ -6,7 +6,7 @@
 #include "octree/core/error.h"
 #include "tests/octree/octree_clouds.h"
 
-namespace stipple {
+namespace stipple::test::octree_build_repeat_test {
 namespace {
 
 const test::TestCloud& large_cloud() {
@@ -96,4 +96,4 @@ TEST(BuildOctree, DividesDownToSinglePointsWhenAskedTo) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_build_repeat_test

@@ -11,7 +11,7 @@
 #include "octree/build/sampling.h"
 #include "octree/build/sort.h"
 
-namespace stipple {
+namespace stipple::test::octree_build_stages_test {
 namespace {
 
 // `spread` bits of code are random, the rest is zero; few bits give many equal codes.
@@ -157,4 +157,4 @@ TEST(DivideIntoChunks, TooManyEqualCodesAreOneChunkAtTheTopmostCellOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_build_stages_test

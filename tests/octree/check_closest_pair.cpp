@@ -3,7 +3,7 @@
 #include "src/check/closest_pair.h"
 #include "tests/octree/octree_clouds.h"
 
-namespace stipple {
+namespace stipple::test::octree_check_closest_pair {
 namespace {
 
 double by_trying_all(const std::vector<glm::ivec3>& points, const glm::dvec3& scale) {
@@ -46,4 +46,4 @@ TEST(ClosestPair, OfManyPointsIsFoundInTimeWhereverTheyAre) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_check_closest_pair

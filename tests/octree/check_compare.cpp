@@ -5,7 +5,7 @@
 #include "src/check/compare_points.h"
 #include "tests/octree/potree2_files.h"
 
-namespace stipple {
+namespace stipple::test::octree_check_compare {
 namespace {
 
 using test::contains;
@@ -201,4 +201,4 @@ TEST_F(ComparePoints, AnotherTypeIsComparedByValue) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_check_compare

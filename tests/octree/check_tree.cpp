@@ -6,7 +6,7 @@
 
 #include "tests/octree/potree2_files.h"
 
-namespace stipple {
+namespace stipple::test::octree_check_tree {
 namespace {
 
 using test::Bytes;
@@ -250,4 +250,4 @@ TEST(CheckTree, DetailsThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_check_tree

@@ -11,7 +11,7 @@
 #include "octree/store/open_tree.h"
 #include "tests/oracles/oracle.h"
 
-namespace stipple::test {
+namespace stipple::test::octree_copc_oracle {
 namespace {
 
 using Sums = std::array<std::int64_t, 3>;
@@ -58,4 +58,4 @@ INSTANTIATE_TEST_SUITE_P(All, CopcOracle,
                                          "PDAL+PDAL/copc/lone-star.copc.laz", "potree+potree/lion_takanawa.copc.laz"));
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::octree_copc_oracle

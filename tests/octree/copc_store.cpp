@@ -11,7 +11,7 @@
 #include "tests/read/laz_fixture.h"
 #include "tests/read/shared_catalog.h"
 
-namespace stipple {
+namespace stipple::test::octree_copc_store {
 namespace {
 
 using test::Bytes;
@@ -268,4 +268,4 @@ TEST(CopcPages, AHierarchyOfTwoPagesHasAllNodes) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_copc_store

@@ -10,7 +10,7 @@
 #include "octree/build/builder.h"
 #include "tests/octree/octree_clouds.h"
 
-namespace stipple {
+namespace stipple::test::octree_density_test {
 namespace {
 
 using Shape = std::function<glm::dvec3(std::mt19937&)>;  // a random point within 1 of the origin
@@ -171,4 +171,4 @@ TEST(UniformPixels, OfAClusteredSetAreFartherOffThanThoseOfItsProfile) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_density_test

@@ -9,7 +9,7 @@
 #include "src/check/check_tree.h"
 #include "tests/octree/node_files.h"
 
-namespace stipple {
+namespace stipple::test::octree_ept_store {
 namespace {
 
 using test::Bytes;
@@ -293,4 +293,4 @@ TEST(EptStore, AZstandardNodeThatIsNoneIsNamed) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_ept_store

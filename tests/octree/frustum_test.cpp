@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace stipple {
+namespace stipple::test::octree_frustum_test {
 namespace {
 
 constexpr int kTrials = 100'000;
@@ -133,4 +133,4 @@ TEST(BoxDistance, IsThatOfTheClosestFaceAndTheFarthestCorner) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_frustum_test

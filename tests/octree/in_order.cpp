@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace stipple::test {
+namespace stipple::test::octree_in_order {
 namespace {
 
 TEST(InOrder, PlacesEveryItemInOrderAndFinishesItOnce) {
@@ -69,4 +69,4 @@ TEST(InOrder, AnErrorEndsIt) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::octree_in_order

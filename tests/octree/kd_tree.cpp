@@ -8,7 +8,7 @@
 #include "src/check/check_tree.h"
 #include "tests/octree/stream_build_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::octree_kd_tree {
 namespace {
 
 constexpr std::size_t kLeaf = 500;
@@ -151,4 +151,4 @@ TEST_F(KdTree, DamagedBoxesAreAnError) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::octree_kd_tree

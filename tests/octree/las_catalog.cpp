@@ -6,7 +6,7 @@
 #include "tests/octree/las_fixture.h"
 #include "tests/read/shared_catalog.h"
 
-namespace stipple {
+namespace stipple::test::octree_las_catalog {
 namespace {
 
 using test::catalog_entries;
@@ -105,4 +105,4 @@ TEST_F(LasCatalog, UnregisteredExtraBytesAreOneColumn) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_las_catalog

@@ -6,7 +6,7 @@
 #include "octree/read/las/las_header.h"
 #include "tests/octree/las_fixture.h"
 
-namespace stipple {
+namespace stipple::test::octree_las_extra_bytes {
 namespace {
 
 using test::Bytes;
@@ -139,4 +139,4 @@ TEST(LasExtraBytes, TheVlrIsUsedWhereBothDescribeThem) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_las_extra_bytes

@@ -7,7 +7,7 @@
 
 #include "tests/octree/las_fixture.h"
 
-namespace stipple {
+namespace stipple::test::octree_las_header {
 namespace {
 
 using test::any_contains;
@@ -246,4 +246,4 @@ TEST(LasHeader, EvlrsAndWaveformsBehindThePointsAreExplained) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_las_header

@@ -7,7 +7,7 @@
 #include "octree/read/las/las_source.h"
 #include "tests/octree/las_fixture.h"
 
-namespace stipple {
+namespace stipple::test::octree_las_robustness {
 namespace {
 
 using test::Bytes;
@@ -121,4 +121,4 @@ TEST(LasRobustness, ADamagedFileIsAnErrorOrReadWhole) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_las_robustness

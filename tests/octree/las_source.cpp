@@ -18,7 +18,7 @@
 #include "octree/read/open.h"
 #include "tests/octree/las_fixture.h"
 
-namespace stipple {
+namespace stipple::test::octree_las_source {
 namespace {
 
 using test::Bytes;
@@ -288,4 +288,4 @@ TEST(OpenSource, AnUnknownFileIsNamedWithItsFirstBytesAndWhatIsRead) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_las_source

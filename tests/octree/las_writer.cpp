@@ -14,7 +14,7 @@
 #include "octree/read/las/las_source.h"
 #include "tests/octree/las_fixture.h"
 
-namespace stipple {
+namespace stipple::test::octree_las_writer {
 namespace {
 
 using test::Bytes;
@@ -294,4 +294,4 @@ TEST(LasWriter, AFolderInThePlaceOfTheFileIsReportedAndLeftAlone) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_las_writer

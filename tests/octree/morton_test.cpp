@@ -7,7 +7,7 @@
 
 #include "tests/octree/octree_clouds.h"
 
-namespace stipple {
+namespace stipple::test::octree_morton_test {
 namespace {
 
 constexpr int kTrials = 100'000;
@@ -132,4 +132,4 @@ TEST(Quantizer, NeverFallsAlongAnAxis) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_morton_test

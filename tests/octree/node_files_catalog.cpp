@@ -7,7 +7,7 @@
 #include "tests/octree/node_files.h"
 #include "tests/read/shared_catalog.h"
 
-namespace stipple {
+namespace stipple::test::octree_node_files_catalog {
 namespace {
 
 namespace fs = std::filesystem;
@@ -118,4 +118,4 @@ TEST_F(NodeFilesCatalog, TheLionPackedByZstandardIsTheLion) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_node_files_catalog

@@ -3,7 +3,7 @@
 #include "tests/octree/node_files.h"
 #include "tests/octree/tree_damage.h"
 
-namespace stipple {
+namespace stipple::test::octree_node_files_robustness {
 namespace {
 
 using test::Bytes;
@@ -66,4 +66,4 @@ TEST(NodeFilesRobustness, DamagedPotree1IsAnErrorOrReadsWhole) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_node_files_robustness

@@ -6,7 +6,7 @@
 #include "src/check/check_tree.h"
 #include "tests/octree/node_files.h"
 
-namespace stipple {
+namespace stipple::test::octree_potree1_store {
 namespace {
 
 using test::Bytes;
@@ -209,4 +209,4 @@ TEST(Potree1Store, WhatIsWrongInAPieceIsNamed) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_potree1_store

@@ -8,7 +8,7 @@
 #include "src/check/check_tree.h"
 #include "tests/octree/potree2_files.h"
 
-namespace stipple {
+namespace stipple::test::octree_potree2_catalog {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,4 +95,4 @@ TEST_F(Potree2Catalog, TheBrotliLionIsTheOneOfAnotherFormat) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_potree2_catalog

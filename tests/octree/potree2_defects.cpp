@@ -6,7 +6,7 @@
 #include "octree/store/potree2/format.h"
 #include "tests/octree/potree2_files.h"
 
-namespace stipple {
+namespace stipple::test::octree_potree2_defects {
 namespace {
 
 using test::Bytes;
@@ -252,4 +252,4 @@ TEST(Potree2Record, WhatIsWrittenIsRead) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_potree2_defects

@@ -2,7 +2,7 @@
 #include "tests/octree/potree2_files.h"
 #include "tests/octree/tree_damage.h"
 
-namespace stipple {
+namespace stipple::test::octree_potree2_robustness {
 namespace {
 
 using test::Bytes;
@@ -63,4 +63,4 @@ TEST_P(Potree2Robustness, AFileCutOffAnywhereIsAnError) {
 INSTANTIATE_TEST_SUITE_P(All, Potree2Robustness, testing::Values("DEFAULT", "BROTLI"));
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_potree2_robustness

@@ -6,7 +6,7 @@
 #include "octree/store/tree_source.h"
 #include "tests/octree/potree2_files.h"
 
-namespace stipple {
+namespace stipple::test::octree_potree2_store {
 namespace {
 
 using test::contains;
@@ -197,4 +197,4 @@ TEST(TreeSource, MorePointsThanStatedAreAnError) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_potree2_store

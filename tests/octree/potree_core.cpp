@@ -11,7 +11,7 @@
 #include "tests/octree/las_fixture.h"
 #include "tests/oracles/oracle.h"
 
-namespace stipple::test {
+namespace stipple::test::octree_potree_core {
 namespace {
 
 using Sums = std::array<std::uint64_t, 3>;
@@ -66,4 +66,4 @@ INSTANTIATE_TEST_SUITE_P(All, PotreeCore, testing::Values(potree2::Encoding::unc
                          });
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::octree_potree_core

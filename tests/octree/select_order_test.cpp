@@ -6,7 +6,7 @@
 #include "octree/select/order.h"
 #include "tests/octree/octree_clouds.h"
 
-namespace stipple {
+namespace stipple::test::octree_select_order_test {
 namespace {
 
 class VisibleNodesOf : public testing::TestWithParam<test::TestCloud> {
@@ -50,4 +50,4 @@ TEST_P(VisibleNodesOf, AreNoneWhenTheViewTurnsItsBack) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::octree_select_order_test

@@ -5,7 +5,7 @@
 #include "octree/build/morton.h"
 #include "tests/octree/stream_build_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::octree_stream_build_clouds {
 namespace {
 
 class StreamBuildCloud : public StreamBuild, public testing::WithParamInterface<TestCloud> {};
@@ -97,4 +97,4 @@ TEST_P(StreamBuildCloud, BrotliHoldsTheSamePointsInTheSameNodesAndOrder) {
 INSTANTIATE_TEST_SUITE_P(Clouds, StreamBuildCloud, testing::ValuesIn(test_clouds()), cloud_name);
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::octree_stream_build_clouds

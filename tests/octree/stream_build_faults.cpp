@@ -8,7 +8,7 @@
 #include "octree/read/open.h"
 #include "tests/octree/stream_build_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::octree_stream_build_faults {
 namespace {
 
 const TestCloud& cloud() {
@@ -175,4 +175,4 @@ TEST_F(StreamBuild, SaysThatAPileIsTooLargeToBePacked) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::octree_stream_build_faults

@@ -2,7 +2,7 @@
 #include "octree/build/stream/common_grid.h"
 #include "tests/octree/stream_build_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::octree_stream_build_grid {
 namespace {
 
 GriddedBox box_at(const glm::dvec3& offset, double scale, const glm::ivec3& min, const glm::ivec3& max) {
@@ -115,4 +115,4 @@ TEST_F(StreamBuild, JoinsSchemasOfDifferentFiles) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::octree_stream_build_grid

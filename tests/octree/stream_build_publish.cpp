@@ -9,7 +9,7 @@
 #include "octree/store/potree2/sidecar.h"
 #include "tests/octree/stream_build_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::octree_stream_build_publish {
 namespace {
 
 TEST_F(StreamBuild, PublishesEveryNodeOnceItCanBeRead) {
@@ -137,4 +137,4 @@ TEST_F(StreamBuild, MetadataHoldRangesAndHistograms) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::octree_stream_build_publish

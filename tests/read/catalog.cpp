@@ -4,7 +4,7 @@
 #include "tests/read/read_fixture.h"
 #include "tests/read/shared_catalog.h"
 
-namespace stipple::test {
+namespace stipple::test::read_catalog {
 namespace {
 
 // What these have to be refused with.
@@ -107,4 +107,4 @@ TEST_F(TableCatalog, ColorsAreWhatTheirFilesSay) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::read_catalog

@@ -5,7 +5,7 @@
 
 #include "tests/read/read_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::read_joined_source {
 namespace {
 
 using Doubles = std::vector<double>;
@@ -79,4 +79,4 @@ TEST_F(Joined, AGridThatCannotBeExactIsAWarning) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::read_joined_source

@@ -3,7 +3,7 @@
 #include "tests/read/laz_fixture.h"
 #include "tests/read/shared_catalog.h"
 
-namespace stipple {
+namespace stipple::test::read_laz_catalog {
 namespace {
 
 using test::catalog_entries;
@@ -87,4 +87,4 @@ TEST_F(LazCatalog, OldAndNewItemsOfTheSamePointsHaveTheSameValues) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::read_laz_catalog

@@ -6,6 +6,7 @@
 #include "octree/cloud/cloud.h"
 #include "octree/read/open.h"
 #include "tests/octree/las_fixture.h"
+#include "tests/read/read_fixture.h"
 
 namespace stipple::test {
 
@@ -35,13 +36,6 @@ T get(const Bytes& bytes, std::size_t offset) {
   T value;
   std::memcpy(&value, bytes.data() + offset, sizeof value);
   return value;
-}
-
-// All attributes of all points.
-inline Cloud load_all(const PointSource& source) {
-  std::vector<std::string> names;
-  for (const Attribute& attribute : source.info().schema) names.push_back(attribute.name);
-  return load_cloud(source, names);
 }
 
 // How many points read() delivers, all attributes of them.

@@ -8,7 +8,7 @@
 #include "octree/open/open.h"
 #include "tests/oracles/oracle.h"
 
-namespace stipple::test {
+namespace stipple::test::read_laz_perf {
 namespace {
 
 class LazPerf : public testing::TestWithParam<const char*> {};
@@ -41,4 +41,4 @@ INSTANTIATE_TEST_SUITE_P(All, LazPerf,
                                          "IGNF+ign-pdal-tools/data/test_data_77055_627755_LA93_IGN69_extra_dims.laz"));
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::read_laz_perf

@@ -4,7 +4,7 @@
 #include "octree/read/laz/laz_source.h"
 #include "tests/read/laz_fixture.h"
 
-namespace stipple {
+namespace stipple::test::read_laz_robustness {
 namespace {
 
 using test::Bytes;
@@ -129,4 +129,4 @@ TEST(LazErrors, ACompressedFileWithoutTheRecordThatSaysHow) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::read_laz_robustness

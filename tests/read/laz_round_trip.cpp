@@ -4,7 +4,7 @@
 #include "octree/read/laz/laz_source.h"
 #include "tests/read/laz_writer.h"
 
-namespace stipple::test {
+namespace stipple::test::read_laz_round_trip {
 namespace {
 
 // How the values of a record follow one another.
@@ -85,4 +85,4 @@ TEST(LazRoundTripOfChannels, PointsOfFourScannersKeepEveryValue) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::read_laz_round_trip

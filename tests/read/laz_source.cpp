@@ -5,7 +5,7 @@
 #include "octree/read/laz/chunk_reader.h"
 #include "tests/read/laz_fixture.h"
 
-namespace stipple {
+namespace stipple::test::read_laz_source {
 namespace {
 
 using test::Bytes;
@@ -217,4 +217,4 @@ TEST(LazSource, ChunksOfVariableSizeWithoutATableAreAnError) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::read_laz_source

@@ -1,7 +1,7 @@
 // Vertices of OBJ files.
 #include "tests/read/read_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::read_obj {
 namespace {
 
 using Doubles = std::vector<double>;
@@ -57,4 +57,4 @@ TEST_F(Obj, WithoutVerticesTheCloudIsEmpty) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::read_obj

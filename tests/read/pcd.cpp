@@ -6,7 +6,7 @@
 #include "octree/read/pcd/lzf.h"
 #include "tests/read/read_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::read_pcd {
 namespace {
 
 using Doubles = std::vector<double>;
@@ -234,4 +234,4 @@ TEST(Lzf, CopiesOfEveryLengthAndDistanceComeOut) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::read_pcd

@@ -4,7 +4,7 @@
 
 #include "tests/read/read_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::read_ply {
 namespace {
 
 using Doubles = std::vector<double>;
@@ -329,4 +329,4 @@ TEST_F(Ply, ACountBelowWhatTheFileHasIsAWarning) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::read_ply

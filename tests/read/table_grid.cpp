@@ -8,7 +8,7 @@
 #include "octree/read/table/position_scan.h"
 #include "tests/read/read_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::read_table_grid {
 namespace {
 
 ChosenGrid grid_of(const std::vector<double>& x, bool single = false) {
@@ -165,4 +165,4 @@ TEST_F(TableRoundTrip, TheSameFileGivesTheSameCloudEveryTime) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::read_table_grid

@@ -5,7 +5,7 @@
 
 #include "tests/read/read_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::read_table_robustness {
 namespace {
 
 struct Sample {
@@ -122,4 +122,4 @@ TEST_F(TableRobustness, ADamagedFileIsAnErrorOrReadWhole) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::read_table_robustness

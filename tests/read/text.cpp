@@ -8,7 +8,7 @@
 #include "octree/read/text/number.h"
 #include "tests/read/read_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::read_text {
 namespace {
 
 using Doubles = std::vector<double>;
@@ -182,4 +182,4 @@ TEST(Number, WholeNumbersAreHeldToTheirType) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::read_text

@@ -15,7 +15,7 @@
 #include "src/scene/scene.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_arriving {
 namespace {
 
 constexpr std::uint64_t kPoints = 60'000;
@@ -307,4 +307,4 @@ TEST(WhileLoading, SaysWhatMemoryItTakes) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_arriving

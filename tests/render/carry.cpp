@@ -9,7 +9,7 @@
 #include "render/store/gpu_cloud.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_carry {
 namespace {
 
 // Draws the points in the order they have, carrying the last frame as told.
@@ -247,4 +247,4 @@ TEST_P(EachRasterizerCarries, AwkwardCloudsAndViewsConvergeToBruteForce) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_carry

@@ -11,7 +11,7 @@
 #include "render/reference/reference.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_context {
 namespace {
 
 constexpr RasterizerKind kRasterizers[] = {RasterizerKind::points, RasterizerKind::compute};
@@ -172,4 +172,4 @@ TEST(Rasterizers, SplatsCoverThePixelsThatTheReferenceCovers) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_context

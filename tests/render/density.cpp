@@ -6,7 +6,7 @@
 #include "render/method/progressive_renderer.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_density {
 namespace {
 
 // Points close together in a few places of a large volume: what an even spread promises too much of.
@@ -43,4 +43,4 @@ TEST(Density, EitherEndsWithTheSamePictureAndUniformPromisesMorePixels) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_density

@@ -7,7 +7,7 @@
 #include "render/method/progressive_renderer.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_eye_dome {
 namespace {
 
 // By the formula, in double precision.
@@ -64,4 +64,4 @@ TEST_P(EyeDomeOf, DarkensByWhatIsInFrontAndLeavesTheFrameAlone) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_eye_dome

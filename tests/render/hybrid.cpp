@@ -6,7 +6,7 @@
 #include "render/method/progressive_renderer.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_hybrid {
 namespace {
 
 class HybridRasterizer : public testing::TestWithParam<RasterizerKind> {};
@@ -165,4 +165,4 @@ TEST(Hybrid, RefusesMoreThanTheMemoryAllowed) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_hybrid

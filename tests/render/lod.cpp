@@ -8,7 +8,7 @@
 #include "render/method/progressive_renderer.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_lod {
 namespace {
 
 constexpr std::uint64_t kPoints = 60'000;
@@ -75,4 +75,4 @@ TEST_P(LodOnDisk, DrawsWithoutLoadingTheTree) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_lod

@@ -9,7 +9,7 @@
 #include "render/method/progressive_renderer.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_methods {
 namespace {
 
 // "index": mode unstructured as S18.
@@ -168,4 +168,4 @@ TEST_P(EachMethod, ConvergesToBruteForceOnEveryRealFile) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_methods

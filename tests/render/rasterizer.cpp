@@ -10,7 +10,7 @@
 #include "render/reference/reference.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_rasterizer {
 namespace {
 
 class EachRasterizer : public testing::TestWithParam<RasterizerKind> {
@@ -186,4 +186,4 @@ TEST(ComputeRasterizer, DiffersFromTheReferenceInAThousandthOfThePixelsAndOnlyBy
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_rasterizer

@@ -10,7 +10,7 @@
 #include "tests/octree/las_fixture.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_shuffle {
 namespace {
 
 constexpr std::uint64_t kSeeds[] = {0, 1, 4'294'967'295ull, 12'345'678'901'234'567ull};
@@ -219,4 +219,4 @@ TEST(Shuffle, ArithmeticIsExactForCloudsNearTwoToThe32) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_shuffle

@@ -10,7 +10,7 @@
 #include "render/reference/reference.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_splats {
 namespace {
 
 class EachRasterizerSplats : public testing::TestWithParam<RasterizerKind> {};
@@ -138,4 +138,4 @@ TEST(SplatRange, IsFarOrNearOnlyWhereAllOfTheBoxIs) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_splats

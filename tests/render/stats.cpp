@@ -8,7 +8,7 @@
 #include "src/run/view_run.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_stats {
 namespace {
 
 constexpr glm::ivec2 kOddSizes[] = {{1, 1}, {1, 7}, {16, 8}, {17, 3}, {15, 9}, {129, 65}, {1281, 719}};
@@ -168,4 +168,4 @@ TEST(ViewRun, TheObserverSeesTheFrameItIsToldOf) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_stats

@@ -7,7 +7,7 @@
 
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_stream_buffer {
 namespace {
 
 // The points and ids of a streamed range, read back.
@@ -127,4 +127,4 @@ TEST(StreamBuffer, FramesInFlightShowWhatWasStreamedForThem) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_stream_buffer

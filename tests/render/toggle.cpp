@@ -4,7 +4,7 @@
 #include "render/method/progressive_renderer.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_toggle {
 namespace {
 
 constexpr std::uint64_t kPoints = 60'000;
@@ -81,4 +81,4 @@ TEST_P(Toggle, AnotherSizeGoesOnFromThePictureThatIsThere) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_toggle

@@ -6,7 +6,7 @@
 #include "tests/render/gl_test.h"
 #include "tests/supply/plane_tree.h"
 
-namespace stipple::test {
+namespace stipple::test::render_tree_bytes {
 namespace {
 
 bool is_in_sight(const View& view, const glm::dvec3& place) {
@@ -78,4 +78,4 @@ TEST(TreeBytes, AViewOfOnePercentOfAPotree2TreeReadsAboutAsMuch) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_tree_bytes

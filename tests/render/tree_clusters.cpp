@@ -19,7 +19,7 @@
 #include "tests/octree/las_fixture.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_tree_clusters {
 namespace {
 
 constexpr std::uint64_t kPoints = 60'000;
@@ -206,4 +206,4 @@ TEST(TreeClusters, ASlowDiskKeepsNoFrameWaiting) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_tree_clusters

@@ -10,7 +10,7 @@
 #include "render/method/progressive_renderer.h"
 #include "tests/render/gl_test.h"
 
-namespace stipple::test {
+namespace stipple::test::render_tree_supply {
 namespace {
 
 // Trees of the shared data: of Potree 2, with records and packed by Brotli; with a file for every node, of records and
@@ -110,4 +110,4 @@ TEST_P(TreeOnDisk, AFileThatBreaksOffIsAnErrorNotAHang) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::render_tree_supply

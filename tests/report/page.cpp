@@ -6,7 +6,7 @@
 
 #include "tests/command/run_stipple.h"
 
-namespace stipple::test {
+namespace stipple::test::report_page {
 namespace {
 
 constexpr const char* kBrowser = "/usr/bin/chromium-headless-shell";
@@ -171,4 +171,4 @@ TEST_F(Report, OfTheClockThatCountsPointsHasNoTimes) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::report_page

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stipple {
+namespace stipple::test::report_pictures {
 namespace {
 
 TEST(DataUri, EncodesEveryRemainder) {
@@ -30,4 +30,4 @@ TEST(Shrunk, IsTheRoundedMeanAndDropsWhatIsLeftOver) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::report_pictures

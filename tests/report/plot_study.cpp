@@ -6,7 +6,7 @@
 
 #include "tests/command/run_stipple.h"
 
-namespace stipple::test {
+namespace stipple::test::report_plot_study {
 namespace {
 
 class PlotStudy : public testing::Test {
@@ -59,4 +59,4 @@ TEST_F(PlotStudy, NamesAStudyThatIsNone) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::report_plot_study

@@ -17,7 +17,7 @@
 #include "src/scene/solid_tree.h"
 #include "src/scene/trig.h"
 
-namespace stipple::scene {
+namespace stipple::scene::test_geometry_test {
 namespace {
 
 TEST(City, CoversOneSquareKilometreHoweverManyPoints) {
@@ -175,4 +175,4 @@ TEST(Trig, AgreesWithLibm) {
 }
 
 }  // namespace
-}  // namespace stipple::scene
+}  // namespace stipple::scene::test_geometry_test

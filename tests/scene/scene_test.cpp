@@ -13,7 +13,7 @@
 #include "octree/cloud/cloud.h"
 #include "octree/core/error.h"
 
-namespace stipple {
+namespace stipple::test::scene_test {
 namespace {
 
 const std::vector<std::string> kAttributes{"rgb", "intensity", "classification"};
@@ -140,4 +140,4 @@ TEST(Scene, EveryNameIsDescribedInASentence) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::scene_test

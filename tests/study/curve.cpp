@@ -9,7 +9,7 @@
 #include "src/study/curve_json.h"
 #include "src/study/summary.h"
 
-namespace stipple {
+namespace stipple::test::study_curve {
 namespace {
 
 double mse_of(double db) {
@@ -260,4 +260,4 @@ TEST(CurvesCsv, QuotesWhatWouldBreakALine) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::study_curve

@@ -4,7 +4,7 @@
 
 #include "tests/octree/las_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::study_ledger {
 namespace {
 
 class LedgerTest : public testing::Test {
@@ -73,4 +73,4 @@ TEST_F(LedgerTest, WhatIsNoLedgerIsNamedWithItsLine) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::study_ledger

@@ -11,7 +11,7 @@
 #include <limits>
 #include <regex>
 
-namespace stipple {
+namespace stipple::test::study_plot {
 namespace {
 
 // `frames` frames whose error falls to zero.
@@ -107,4 +107,4 @@ TEST(Plot, ALargeStudyHasABoundedNumberOfTicks) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::study_plot

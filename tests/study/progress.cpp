@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace stipple {
+namespace stipple::test::study_progress {
 namespace {
 
 class StudyProgressTest : public testing::Test {
@@ -49,4 +49,4 @@ TEST_F(StudyProgressTest, EndsAtTheNextStepOnceTheFlagIsUp) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::study_progress

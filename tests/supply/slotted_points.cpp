@@ -6,7 +6,7 @@
 
 #include "render/store/cluster_pool.h"
 
-namespace stipple::test {
+namespace stipple::test::supply_slotted_points {
 namespace {
 
 TEST(SlottedPoints, EverySlotHasItsPointsAndABoxAroundThem) {
@@ -35,4 +35,4 @@ TEST(SlottedPoints, EverySlotHasItsPointsAndABoxAroundThem) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::supply_slotted_points

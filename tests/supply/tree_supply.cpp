@@ -10,7 +10,7 @@
 #include "render/store/tree_ids.h"
 #include "tests/supply/plane_tree.h"
 
-namespace stipple::test {
+namespace stipple::test::supply_tree_supply {
 namespace {
 
 // Every node in sight looked up, as frames would.
@@ -185,4 +185,4 @@ TEST(TreeSupplyOnDisk, EveryNodeHasIdsOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::supply_tree_supply

@@ -5,7 +5,7 @@
 #include "src/viewer/describe_point.h"
 #include "src/viewer/keys.h"
 
-namespace stipple {
+namespace stipple::test::viewer_command_line {
 namespace {
 
 TEST(CommandLine, QuotesWhatAShellWouldTakeApart) {
@@ -68,4 +68,4 @@ TEST(Keys, EachIsShownAndMeansOneThing) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::viewer_command_line

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stipple {
+namespace stipple::test::viewer_flight {
 namespace {
 
 Camera camera_at_x(double x) {
@@ -57,4 +57,4 @@ TEST(Flight, WithoutMovementThereIsNoPath) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::viewer_flight

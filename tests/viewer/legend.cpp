@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stipple {
+namespace stipple::test::viewer_legend {
 namespace {
 
 TEST(Legend, EndsHaveAsManyDigitsAsTellThemApart) {
@@ -20,4 +20,4 @@ TEST(Legend, StepsAreTheColoursOfTheirValues) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::viewer_legend

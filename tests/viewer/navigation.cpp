@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <random>
 
-namespace stipple {
+namespace stipple::test::viewer_navigation {
 namespace {
 
 constexpr glm::ivec2 kSize{1280, 720};
@@ -185,4 +185,4 @@ TEST_F(Navigation, FacingAPointOrNothingGivesAPose) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::viewer_navigation

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stipple {
+namespace stipple::test::viewer_pointer {
 namespace {
 
 using Kind = Gesture::Kind;
@@ -84,4 +84,4 @@ TEST(Pointer, AReleaseWithoutAPressIsNothing) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::viewer_pointer

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stipple {
+namespace stipple::test::viewer_resolution {
 namespace {
 
 // A machine on which a frame takes so many milliseconds a million pixels, and nothing else.
@@ -45,4 +45,4 @@ TEST(Resolution, BecomesFineAgain) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::viewer_resolution

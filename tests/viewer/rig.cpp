@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stipple {
+namespace stipple::test::viewer_rig {
 namespace {
 
 constexpr glm::ivec2 kSize{1280, 720};
@@ -110,4 +110,4 @@ TEST_F(RigTest, SurvivesAPictureOfOnePixelAndAnEmptyCloud) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::viewer_rig

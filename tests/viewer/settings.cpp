@@ -9,7 +9,7 @@
 #include "octree/core/error.h"
 #include "tests/octree/las_fixture.h"
 
-namespace stipple::test {
+namespace stipple::test::viewer_settings {
 namespace {
 
 TEST(ViewerSettings, ComeBackAsTheyWereWritten) {
@@ -75,4 +75,4 @@ TEST(RecentInputs, ComeBackAsTheyWereWritten) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::viewer_settings

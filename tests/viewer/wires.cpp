@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace stipple {
+namespace stipple::test::viewer_wires {
 namespace {
 
 constexpr Grid kGrid{.offset = {500000, 5e6, 0}, .scale = glm::dvec3(0.01)};
@@ -50,4 +50,4 @@ TEST(Wires, ACameraIsAPyramidThatItSeesAsItsPicture) {
 }
 
 }  // namespace
-}  // namespace stipple
+}  // namespace stipple::test::viewer_wires

@@ -17,7 +17,7 @@
 #include "tests/command/run_stipple.h"
 #include "tests/window/x_display.h"
 
-namespace stipple::test {
+namespace stipple::test::window_viewer {
 namespace {
 
 constexpr std::uint64_t kPoints = 60'000;
@@ -615,4 +615,4 @@ TEST(ViewCommand, SaysWhatToDoWithoutADisplay) {
 }
 
 }  // namespace
-}  // namespace stipple::test
+}  // namespace stipple::test::window_viewer
