@@ -210,6 +210,9 @@ SharedContext::SharedContext(const Window& window) : errors_are_fatal_(window.er
 }
 
 SharedContext::~SharedContext() {
+  // Mesa 22 has the context that drew with a program first look after it. Were one still in use where this context is
+  // current, and so alive, that would be done in a context that is gone.
+  glUseProgram(0);
   glfwDestroyWindow(hidden_);
 }
 

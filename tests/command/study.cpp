@@ -191,7 +191,10 @@ TEST_F(StudyRegimes, WhileLoadingThePictureFillsWithWhatIsRead) {
   for (const Json& row : study.at("summary")) {
     EXPECT_EQ(row.at("loaded").is_null(), row.at("regime") != "loading");
     if (row.at("regime") == "loading") {
-      EXPECT_EQ(row.at("loaded").at("points"), 20'000) << row.dump();
+      // Five frames of 4,000 points; hybrid may find that some of them cannot be seen
+      const auto points = row.at("loaded").at("points").get<int>();
+      EXPECT_LE(points, 20'000);
+      EXPECT_GE(points, row.at("mode") == "unstructured" ? 20'000 : 19'000);
     }
   }
   EXPECT_EQ(regimes("other", "--modes lod,hierarchical").code, 2);

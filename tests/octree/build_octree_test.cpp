@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <set>
 
 #include "octree/build/builder.h"
 #include "octree/build/morton.h"
@@ -170,14 +169,18 @@ TEST_P(OctreeOf, InnerNodesHoldAtMostOnePointOfALatticeCell) {
 }
 
 TEST_P(OctreeOf, InnerNodesAndTheirAncestorsHoldAPointOfEveryOccupiedLatticeCell) {
+  const auto lattice_of = [](const Node& node) { return std::min(node.level + kLatticeLevels, kMaxLevel); };
+  std::vector<std::vector<std::uint64_t>> held(octree_.nodes.size());
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const Node& node = octree_.nodes[i];
+    if (node.is_leaf()) continue;
+    for_each_slot_upwards(node, [&](std::uint32_t slot) { held[i].push_back(code_at(slot, lattice_of(node))); });
+    std::ranges::sort(held[i]);
+  }
   for (const Node& leaf : octree_.nodes) {
     for (std::uint32_t up = leaf.parent; up != Node::kNone; up = octree_.nodes[up].parent) {
-      const Node& node = octree_.nodes[up];
-      const int lattice = std::min(node.level + kLatticeLevels, kMaxLevel);
-      std::set<std::uint64_t> held;
-      for_each_slot_upwards(node, [&](std::uint32_t slot) { held.insert(code_at(slot, lattice)); });
       for (std::uint32_t slot = leaf.first; slot < leaf.first + leaf.count; ++slot)
-        ASSERT_TRUE(held.contains(code_at(slot, lattice)));
+        ASSERT_TRUE(std::ranges::binary_search(held[up], code_at(slot, lattice_of(octree_.nodes[up]))));
     }
   }
 }

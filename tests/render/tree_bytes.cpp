@@ -70,7 +70,7 @@ TEST(TreeBytes, AViewOfOnePercentOfAPotree1TreeReadsAboutAsMuch) {
 TEST(TreeBytes, AViewOfOnePercentOfAPotree2TreeReadsAboutAsMuch) {
   const ScratchFolder folder;
   std::vector<std::unique_ptr<PointSource>> sources;
-  sources.push_back(make_scene("terrain", 4'000'000, 1));
+  sources.push_back(make_scene("terrain", 2'500'000, 1));
   BuildMonitor monitor;
   build_tree(sources, folder.path("tree"), {}, monitor);
   const RootCube cube = open_tree(folder.path("tree"))->info().cube;
