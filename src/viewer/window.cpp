@@ -210,9 +210,14 @@ SharedContext::SharedContext(const Window& window) : errors_are_fatal_(window.er
 }
 
 SharedContext::~SharedContext() {
-  // Mesa 22 has the context that drew with a program first look after it. Were one still in use where this context is
-  // current, and so alive, that would be done in a context that is gone.
+  // Mesa 22 keeps the program of a context's last dispatch, and has the context that first ran it look after it. Let it
+  // keep one of the window's, not one whose context is gone.
+  const char* const nothing = "#version 450\nlayout(local_size_x = 1) in;\nvoid main() {}\n";
+  const GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &nothing);
+  glUseProgram(program);
+  glDispatchCompute(1, 1, 1);
   glUseProgram(0);
+  glDeleteProgram(program);
   glfwDestroyWindow(hidden_);
 }
 
