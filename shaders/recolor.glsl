@@ -5,18 +5,22 @@ layout(location = 0) uniform uint first;  // id whose colour is colors[0]
 layout(location = 1) uniform uint count;  // colours
 
 #ifdef PICTURE
+#include "packing.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(binding = 0, rgba32i) uniform iimage2D points;
-layout(binding = 1) uniform usampler2D ids;
+layout(binding = 1, r32ui) uniform uimage2D ids;
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, textureSize(ids, 0)))) return;
+  if (any(greaterThanEqual(pixel, imageSize(ids)))) return;
   // Ids below the first wrap around to beyond the last; kNoPoint always is
-  uint at = texelFetch(ids, pixel, 0).x - first;
+  uint at = imageLoad(ids, pixel).x - first;
   if (at >= count) return;
-  imageStore(points, pixel, ivec4(imageLoad(points, pixel).xyz, int(colors[at])));
+  int color = int(colors[at]);
+  imageStore(points, pixel, ivec4(imageLoad(points, pixel).xyz, color));
+  // A point that is not to be seen any more is not carried on
+  if (color >= 0) imageStore(ids, pixel, uvec4(kNoPoint));
 }
 
 #else

@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "octree/cloud/columns.h"
 #include "octree/core/error.h"
 
 namespace stipple {
@@ -32,27 +33,15 @@ void load_cloud(const PointSource& source, const std::vector<std::string>& attri
                             cloud.info.path, cloud.info.point_count, kMaxPoints));
 
   std::vector<std::size_t> wanted;
-  for (const std::string& name : attributes) {
-    const auto index = find_attribute(cloud.info.schema, name);
-    if (!index) continue;
-    wanted.push_back(*index);
-    cloud.columns.push_back({cloud.info.schema[*index], {}});
-  }
-
-  const auto count = static_cast<std::size_t>(cloud.info.point_count);
-  cloud.positions.resize(count);
-  for (Column& column : cloud.columns) column.resize(count);
+  cloud.columns = columns_for(cloud.info, attributes, wanted);
+  cloud.positions.resize(static_cast<std::size_t>(cloud.info.point_count));
 
   // Copy each batch to its place; bounds are gathered a thread at a time
   tbb::enumerable_thread_specific<GridBox> bounds;
   source.read(wanted, [&](const PointBatch& batch) {
     const auto first = static_cast<std::size_t>(batch.first);
     std::memcpy(cloud.positions.data() + first, batch.positions.data(), batch.positions.size() * sizeof(glm::ivec3));
-    for (std::size_t c = 0; c < cloud.columns.size(); ++c) {
-      const std::size_t stride = cloud.columns[c].attribute.bytes();
-      std::memcpy(cloud.columns[c].bytes.data() + first * stride, batch.columns[c].bytes.data(),
-                  batch.columns[c].bytes.size());
-    }
+    put_columns(batch, cloud.columns);
     GridBox& box = bounds.local();
     for (const glm::ivec3& p : batch.positions) box.extend(p);
     if (arrived) arrived(batch.first, batch.positions.size());

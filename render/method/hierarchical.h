@@ -28,6 +28,7 @@ class Hierarchical final : public Method {
   bool finished() const override { return to_request_ == 0 && under_way_ == 0 && !supply_->searching(); }
   SelectionCounts counts() const override;
   std::vector<SightedBox> boxes() const override;
+  bool recolor(const ColorUpload&, const PointSet& points) override { return supply_->recolor(points); }
 
  private:
   struct Reading {

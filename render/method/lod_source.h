@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <unordered_set>
@@ -40,6 +41,8 @@ class LodSource {
   // others; true when there are none. Throws Error when reading failed.
   virtual bool draw(std::span<const Part> parts, Selection& selection) = 0;
   virtual std::uint64_t bytes_read() const { return 0; }
+  // See Method::colored().
+  virtual std::optional<std::vector<ColoredPoints>> colored() const { return std::nullopt; }
   // What one draw() has room for, in slots of SlottedPoints.
   virtual std::uint64_t room() const { return std::numeric_limits<std::uint64_t>::max(); }
 
@@ -60,6 +63,7 @@ class MemoryLod final : public LodSource {
   std::vector<Part> discovered() override { return {}; }
   bool searching() const override { return false; }
   bool draw(std::span<const Part> parts, Selection& selection) override;
+  std::optional<std::vector<ColoredPoints>> colored() const override { return colored_points(cloud_); }
 
  private:
   const Octree& octree_;

@@ -96,6 +96,13 @@ std::unique_ptr<Method> make_lod(const Dataset& dataset, const MethodOptions& op
 
 }  // namespace
 
+bool Method::recolor(const ColorUpload& colors, const PointSet&) {
+  const auto mine = colored();
+  if (!mine) return false;
+  for (const ColoredPoints& points : *mine) colors.paint(points);
+  return true;
+}
+
 void count_splats(SplatRange range, SelectionCounts& counts) {
   ++(range == SplatRange::far    ? counts.clusters_far
      : range == SplatRange::near ? counts.clusters_near

@@ -83,6 +83,10 @@ class Method {
   // The points on the GPU that it draws from, all of them: new colours may be painted on them (ColorUpload). Nothing:
   // what it draws comes from elsewhere.
   virtual std::optional<std::vector<ColoredPoints>> colored() const { return std::nullopt; }
+  // Its points have these colours from now on: painted where they lie on the GPU; where it has them from main memory,
+  // `points`, the same ones in the same order, take their place and must outlive it. False where neither is so: they
+  // come from disk, in the colours that it was made with.
+  virtual bool recolor(const ColorUpload& colors, const PointSet& points);
   // Those in sight; none where the method knows none. May wait for the GPU.
   virtual std::vector<SightedBox> boxes() const { return {}; }
 };

@@ -61,8 +61,7 @@ void WhileLoading::take_points() {
 void WhileLoading::finish_colors(ProgressiveRenderer& renderer) {
   if (points_loaded_ == 0 || whole_->colors == arrivals_.colors()) return;
   const ColorUpload colors(colors_by_id(whole_->points));
-  const auto colored = arriving_->colored();
-  for (const ColoredPoints& points : *colored) colors.paint(points);
+  arriving_->recolor(colors, whole_->points);
   renderer.recolor(colors);
   color_bytes_uploaded_ = colors.bytes();
   bytes_uploaded_ += colors.bytes();

@@ -44,7 +44,7 @@ void ColorUpload::paint(const ColoredPoints& points) const {
 void ColorUpload::paint(const FeedbackTarget& picture) const {
   picture_.use();
   picture.points().bind_image(0, GL_READ_WRITE);
-  picture.ids().bind(1);
+  picture.ids().bind_image(1, GL_READ_WRITE);
   for (const Piece& piece : pieces_) {
     piece.colors.bind_storage(0);
     glUniform1ui(0, piece.first);

@@ -128,15 +128,22 @@ std::pair<double, double> robust_range(std::size_t count, const Value& value) {
   return {low, at(0.99)};
 }
 
-// out[i].rgba = rgba(i)
-template <class Rgba>
-void color_points(std::span<PackedPoint> out, const Rgba& rgba) {
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].rgba = rgba(i);
+std::uint32_t& rgba_of(PackedPoint& point) {
+  return point.rgba;
+}
+std::uint32_t& rgba_of(std::uint32_t& color) {
+  return color;
+}
+
+// The colour of out[i], a point or a colour alone, becomes rgba(i).
+template <class Out, class Rgba>
+void color_points(std::span<Out> out, const Rgba& rgba) {
+  for (std::size_t i = 0; i < out.size(); ++i) rgba_of(out[i]) = rgba(i);
 }
 
 // Colours by where value(i) lies between the map's ends.
-template <class Value, class Rgba>
-void color_by_value(const ColorMap& map, std::span<PackedPoint> out, const Value& value, const Rgba& rgba) {
+template <class Out, class Value, class Rgba>
+void color_by_value(const ColorMap& map, std::span<Out> out, const Value& value, const Rgba& rgba) {
   const double stretch = map.high > map.low ? 1.0 / (map.high - map.low) : 0.0;
   color_points(out, [&](std::size_t i) {
     const double t = (value(i) - map.low) * stretch;
@@ -149,21 +156,19 @@ const Column* column_of(std::span<const Column> columns, std::string_view name) 
   return found == columns.end() ? nullptr : &*found;
 }
 
-// `column`: the map's attribute; null for height.
-void color_all(const ColorMap& map, std::span<const glm::ivec3> positions, const Column* column, std::size_t first,
-               std::span<PackedPoint> out) {
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].position = positions[first + i];
-  const auto value = [&](std::size_t i) {
-    return column ? value_at(*column, first + i) : static_cast<double>(positions[first + i].z);
-  };
+// The colours of points first, first + 1, ...: `values` are those of the map's attribute, height(i) that of point i
+// where there are none.
+template <class Out, class Height>
+void color_all(const ColorMap& map, const Column* values, const Height& height, std::size_t first, std::span<Out> out) {
+  const auto value = [&](std::size_t i) { return values ? value_at(*values, first + i) : height(first + i); };
   switch (map.kind) {
     case ColorMap::Kind::rgb8:
     case ColorMap::Kind::rgb16: {
-      const auto values = column->as<std::uint16_t>().subspan(3 * first);
+      const auto channels = values->as<std::uint16_t>().subspan(3 * first);
       const int shift = map.kind == ColorMap::Kind::rgb16 ? 8 : 0;
       color_points(out, [&](std::size_t i) {
-        return pack(values[3 * i] >> shift & 0xFFu, values[3 * i + 1] >> shift & 0xFFu,
-                    values[3 * i + 2] >> shift & 0xFFu);
+        return pack(channels[3 * i] >> shift & 0xFFu, channels[3 * i + 1] >> shift & 0xFFu,
+                    channels[3 * i + 2] >> shift & 0xFFu);
       });
       break;
     }
@@ -176,6 +181,19 @@ void color_all(const ColorMap& map, std::span<const glm::ivec3> positions, const
     case ColorMap::Kind::ramp:
       color_by_value(map, out, value, [&](double t) { return ramp_color(map.ramp, t); });
       break;
+  }
+}
+
+// Points that are not to be seen lose the opacity of their colour, others get it.
+template <class Out>
+void hide(const ClassSet& hidden, const Column& classes, std::size_t first, std::span<Out> out) {
+  constexpr std::uint32_t kOpaque = 0xFF000000u;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double value = value_at(classes, first + i);
+    const bool is_hidden =
+        value >= 0.0 && value < static_cast<double>(hidden.size()) && hidden[static_cast<std::size_t>(value)];
+    std::uint32_t& rgba = rgba_of(out[i]);
+    rgba = is_hidden ? rgba & ~kOpaque : rgba | kOpaque;
   }
 }
 
@@ -221,24 +239,30 @@ std::vector<std::string> attributes_for_color(const std::string& color) {
   return color == "height" ? std::vector<std::string>{} : std::vector{color};
 }
 
+ColorMap map_colors(const Column& values) {
+  const std::string& name = values.attribute.name;
+  ColorMap map{.attribute = name};
+  if (has_rgb16(values)) {
+    map.kind = fits_8_bits(values.as<std::uint16_t>()) ? ColorMap::Kind::rgb8 : ColorMap::Kind::rgb16;
+  } else if (name == "classification") {
+    map.kind = ColorMap::Kind::classes;
+  } else {
+    map.kind = name == "intensity" ? ColorMap::Kind::grey : ColorMap::Kind::ramp;
+    std::tie(map.low, map.high) = robust_range(values.points(), [&](std::size_t i) { return value_at(values, i); });
+  }
+  return map;
+}
+
 ColorMap map_colors(const Cloud& cloud, const std::string& color) {
-  ColorMap map{.attribute = color};
   if (color == "height") {
+    ColorMap map{.attribute = color};
     std::tie(map.low, map.high) =
         robust_range(cloud.size(), [&](std::size_t i) { return static_cast<double>(cloud.positions[i].z); });
     return map;
   }
   const Column* column = cloud.find(color);
   if (!column) throw Error(fmt::format("{}: attribute {} was not read", cloud.info.path, color));
-  if (has_rgb16(*column)) {
-    map.kind = fits_8_bits(column->as<std::uint16_t>()) ? ColorMap::Kind::rgb8 : ColorMap::Kind::rgb16;
-  } else if (color == "classification") {
-    map.kind = ColorMap::Kind::classes;
-  } else {
-    map.kind = color == "intensity" ? ColorMap::Kind::grey : ColorMap::Kind::ramp;
-    std::tie(map.low, map.high) = robust_range(cloud.size(), [&](std::size_t i) { return value_at(*column, i); });
-  }
-  return map;
+  return map_colors(*column);
 }
 
 ColorMap map_colors(const TreeStore& tree, const Cloud& root, const std::string& color) {
@@ -273,15 +297,30 @@ ColorMap ColorChoice::complete(ColorMap map) const {
 
 void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, std::span<const Column> columns,
                  std::size_t first, std::span<PackedPoint> out) {
-  const Column* column = column_of(columns, map.attribute);
-  color_all(map, positions, column, first, out);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].position = positions[first + i];
+  const auto height = [&](std::size_t i) { return static_cast<double>(positions[i].z); };
+  color_all(map, column_of(columns, map.attribute), height, first, out);
   const Column* classes = map.hidden.any() ? column_of(columns, kClassAttribute) : nullptr;
-  if (!classes) return;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const double value = value_at(*classes, first + i);
-    if (value >= 0.0 && value < static_cast<double>(map.hidden.size()) && map.hidden[static_cast<std::size_t>(value)])
-      out[i].rgba = 0;
-  }
+  if (classes) hide(map.hidden, *classes, first, out);
+}
+
+Buffer<std::uint32_t> pack_colors(const ColorMap& map, std::span<const Column> columns, std::size_t count) {
+  Buffer<std::uint32_t> colors(count);
+  const Column* values = column_of(columns, map.attribute);
+  if (!values) throw Error(fmt::format("attribute {} was not read", map.attribute));
+  const auto no_height = [](std::size_t) { return 0.0; };
+  tbb::parallel_for(Range(0, count, 65536), [&](const Range& range) {
+    color_all(map, values, no_height, range.begin(), std::span(colors).subspan(range.begin(), range.size()));
+  });
+  const Column* classes = map.hidden.any() ? column_of(columns, kClassAttribute) : nullptr;
+  if (classes) hide_classes(map.hidden, *classes, colors);
+  return colors;
+}
+
+void hide_classes(const ClassSet& hidden, const Column& classes, std::span<std::uint32_t> colors) {
+  tbb::parallel_for(Range(0, colors.size(), 65536), [&](const Range& range) {
+    hide(hidden, classes, range.begin(), colors.subspan(range.begin(), range.size()));
+  });
 }
 
 PointSet make_point_set(const Cloud& cloud, const ColorMap& map) {

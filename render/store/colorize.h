@@ -79,6 +79,9 @@ struct ColorChoice {
 // bits is taken as 8 bits when no channel of any point exceeds 255. Throws Error when the cloud lacks the column.
 ColorMap map_colors(const Cloud& cloud, const std::string& color);
 
+// The map for an attribute, or for heights in a column of that name, stretched over these values in the same way.
+ColorMap map_colors(const Column& values);
+
 // The map for a tree on disk, stretched over its root, which is an even sample. Whether colours have 8 bits is what the
 // tree says of their largest value.
 ColorMap map_colors(const TreeStore& tree, const Cloud& root, const std::string& color);
@@ -93,6 +96,14 @@ std::vector<std::string> attribute_names_of(const ColorMap& map, const Schema& s
 // room for.
 void pack_points(const ColorMap& map, std::span<const glm::ivec3> positions, std::span<const Column> columns,
                  std::size_t first, std::span<PackedPoint> out);
+
+// Those colours alone, of `count` points, on all cores. `columns` also hold heights (under that name) where the map is
+// of them.
+Buffer<std::uint32_t> pack_colors(const ColorMap& map, std::span<const Column> columns, std::size_t count);
+
+// Takes points of these classes out of the picture and puts the others back; `classes` are those of the points whose
+// colours these are. A colour that is not seen stays known.
+void hide_classes(const ClassSet& hidden, const Column& classes, std::span<std::uint32_t> colors);
 
 // Points with ids 0, 1, ... coloured by the map, on all cores.
 PointSet make_point_set(const Cloud& cloud, const ColorMap& map);

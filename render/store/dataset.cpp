@@ -128,8 +128,8 @@ Dataset load_dataset(const PointSource& source, const ColorChoice& color, bool w
 void add_octree(Dataset& dataset) {
   const auto start = Clock::now();
   PointSet& set = dataset.points;
-  dataset.octree = build_octree(set.grid, set.bounds,
-                                PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position));
+  dataset.octree = std::make_shared<Octree>(build_octree(
+      set.grid, set.bounds, PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position)));
   to_store_order(set, *dataset.octree);
   dataset.build_seconds = seconds_since(start);
 }

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +20,9 @@ namespace stipple {
 // the ids are those of first_id_of(), in memory and on disk.
 struct Dataset {
   SourceInfo info;
-  ColorMap colors;  // what the points are coloured by
-  PointSet points;  // grid and bounds alone, where a tree on disk was not to be loaded
-  std::optional<Octree> octree;
+  ColorMap colors;                        // what the points are coloured by
+  PointSet points;                        // grid and bounds alone, where a tree on disk was not to be loaded
+  std::shared_ptr<const Octree> octree;   // null: none was built
   std::shared_ptr<const TreeStore> tree;  // the input itself, if it is an octree on disk
   PointSet root;                          // the points of its root, or of where it begins
   std::uint64_t bytes_to_load = 0;        // read from it to have all points in memory; 0 where they are not

@@ -27,33 +27,34 @@ std::vector<VisibleCluster> MemorySupply::visible(const View& view) {
 }
 
 void MemorySupply::request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) {
-  const std::uint32_t slot = octree_.clusters[handle].first + first;
-  requested_.push_back({.points = points_.points.data() + slot,
-                        .ids = points_.ids.empty() ? nullptr : points_.ids.data() + slot,
-                        .first_id = slot,
-                        .count = count,
-                        .one_pixel = one_pixel});
+  requested_.push_back({octree_.clusters[handle].first + first, count, one_pixel});
+}
+
+PointPiece MemorySupply::piece(const Stretch& stretch) const {
+  return {.points = points_->points.data() + stretch.first,
+          .ids = points_->ids.empty() ? nullptr : points_->ids.data() + stretch.first,
+          .first_id = stretch.first,
+          .count = stretch.count,
+          .one_pixel = stretch.one_pixel};
 }
 
 std::vector<PointPiece> MemorySupply::collect(std::uint32_t most) {
   std::vector<PointPiece> pieces;
   std::size_t taken = 0;
-  for (; taken < requested_.size() && requested_[taken].count <= most; ++taken) {
-    pieces.push_back(requested_[taken]);
-    most -= requested_[taken].count;
-    bytes_read_ += requested_[taken].count * (sizeof(PackedPoint) + sizeof(std::uint32_t));
-  }
+  const auto give = [&](const Stretch& stretch) {
+    pieces.push_back(piece(stretch));
+    most -= stretch.count;
+    bytes_read_ += stretch.count * (sizeof(PackedPoint) + sizeof(std::uint32_t));
+  };
+  for (; taken < requested_.size() && requested_[taken].count <= most; ++taken) give(requested_[taken]);
   requested_.erase(requested_.begin(), requested_.begin() + static_cast<std::ptrdiff_t>(taken));
   // A request for more than a frame holds is given in parts
   if (most > 0 && !requested_.empty()) {
-    PointPiece& large = requested_.front();
-    pieces.push_back(large);
-    pieces.back().count = most;
-    bytes_read_ += most * (sizeof(PackedPoint) + sizeof(std::uint32_t));
-    large.points += most;
-    if (large.ids) large.ids += most;
-    large.first_id += most;
-    large.count -= most;
+    Stretch& large = requested_.front();
+    const std::uint32_t part = most;
+    give({large.first, part, large.one_pixel});
+    large.first += part;
+    large.count -= part;
   }
   return pieces;
 }

@@ -11,7 +11,7 @@ class MemorySupply final : public PointSupply {
  public:
   // `points` in store order of the octree. Both must outlive the supply.
   MemorySupply(const PointSet& points, const Octree& octree, DensityEstimate density = DensityEstimate::box_count)
-      : PointSupply(density), points_(points), octree_(octree) {}
+      : PointSupply(density), points_(&points), octree_(octree) {}
 
   std::vector<VisibleCluster> visible(const View& view) override;
   GridBox box(std::uint32_t handle) const override { return octree_.clusters[handle].box; }
@@ -19,12 +19,25 @@ class MemorySupply final : public PointSupply {
   void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) override;
   std::vector<PointPiece> collect(std::uint32_t most) override;
   std::uint64_t read_ahead(std::uint32_t budget) const override { return budget; }
+  // They must outlive the supply.
+  bool recolor(const PointSet& points) override {
+    points_ = &points;
+    return true;
+  }
   std::uint64_t bytes_read() const override { return bytes_read_; }
 
  private:
-  const PointSet& points_;
+  // Slots in store order.
+  struct Stretch {
+    std::uint32_t first;
+    std::uint32_t count;
+    bool one_pixel;
+  };
+  PointPiece piece(const Stretch& stretch) const;
+
+  const PointSet* points_;
   const Octree& octree_;
-  std::vector<PointPiece> requested_;
+  std::vector<Stretch> requested_;
   std::size_t visible_nodes_ = 0;
   std::uint64_t bytes_read_ = 0;
 };

@@ -50,6 +50,10 @@ class PointSupply {
   // Points to have under way so that collect() seldom waits, for a frame of `budget` points.
   virtual std::uint64_t read_ahead(std::uint32_t budget) const = 0;
 
+  // The same points in the same order, in other colours, take the place of those that it gives, also of what is
+  // requested already. False where it reads its points from disk.
+  virtual bool recolor(const PointSet&) { return false; }
+
   // Bytes read from disk or main memory so far.
   virtual std::uint64_t bytes_read() const = 0;
 

@@ -183,21 +183,46 @@ TEST(ColorUpload, PaintsEveryMethodAndItsPicture) {
     const FrameData expected = brute_force_picture(painted, kind, view);
     for (const Mode mode : all_modes()) {
       const auto method = make_method(mode, dataset.points, &*dataset.octree);
-      const auto colored = method->colored();
-      // These have their points from main memory, or an order of their own
-      EXPECT_EQ(colored.has_value(), mode != Mode::hierarchical && mode != Mode::lod) << name_of(mode);
-      if (!colored) continue;
       ProgressiveRenderer renderer(*method, kind, dataset.points.grid);
-      // In the middle, so that some points are in the picture and others come
-      for (int frame = 0; frame < 3; ++frame) renderer.draw(view, 10'000);
+      // In the middle, so that some points are in the picture and others come; lod stops at its budget
+      const std::uint32_t budget = mode == Mode::lod ? kPoints : 10'000;
+      for (int frame = 0; frame < 3; ++frame) renderer.draw(view, budget);
       const Buffer<std::uint32_t> by_id = colors_by_id(painted);
       const ColorUpload colors(by_id);
       EXPECT_EQ(colors.bytes(), 4 * kPoints);
-      for (const ColoredPoints& points : *colored) colors.paint(points);
+      EXPECT_TRUE(method->recolor(colors, painted)) << name_of(mode);
       renderer.recolor(colors);
-      while (!renderer.draw(view, 20'000).converged) {
+      while (!renderer.draw(view, budget).converged) {
       }
       EXPECT_TRUE(same_picture(renderer.read(), expected)) << name_of(mode);
+    }
+  }
+}
+
+// Takes the picture's points away and brings others back, as a change of hidden classes does.
+TEST(ColorUpload, HidesAndShowsPointsOfEveryMethodAndItsPicture) {
+  const Dataset& dataset = scene("city", kPoints);
+  const View view = view_of(dataset, "oblique");
+  for (const double point_size : {1.0, 3.0}) {
+    for (const Mode mode : all_modes()) {
+      const auto method = make_method(mode, dataset.points, &*dataset.octree);
+      ProgressiveRenderer renderer(*method, RasterizerKind::compute, dataset.points.grid, point_size);
+      for (int frame = 0; frame < 3; ++frame) renderer.draw(view, 10'000);
+      std::vector<PointSet> hidden(2, dataset.points);
+      for (const std::uint32_t third : {0u, 1u}) {
+        PointSet& points = hidden[third];
+        for (std::size_t i = 0; i < points.size(); ++i)
+          if (points.id(i) % 3 == third) points.points[i].rgba &= 0x00FFFFFFu;
+        const ColorUpload colors(colors_by_id(points));
+        method->recolor(colors, points);
+        renderer.recolor(colors);
+        renderer.use(*method);
+        while (!renderer.draw(view, mode == Mode::lod ? kPoints : 20'000).converged) {
+        }
+        EXPECT_TRUE(
+            same_picture(renderer.read(), brute_force_picture(points, RasterizerKind::compute, view, point_size)))
+            << name_of(mode) << ", points of " << point_size;
+      }
     }
   }
 }

@@ -176,8 +176,8 @@ PointSet awkward_cloud(int kind, std::mt19937& random) {
 // As load_dataset does.
 Dataset with_octree(PointSet set) {
   Dataset dataset;
-  dataset.octree = build_octree(set.grid, set.bounds,
-                                PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position));
+  dataset.octree = std::make_shared<Octree>(build_octree(
+      set.grid, set.bounds, PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position)));
   dataset.points = set;
   for (std::size_t i = 0; i < set.size(); ++i) dataset.points.points[i] = set.points[dataset.octree->order[i]];
   dataset.points.ids = dataset.octree->order;
