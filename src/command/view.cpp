@@ -47,8 +47,7 @@ ViewerOptions viewer_options(const Options& options) {
     viewer.method.limits.main = static_cast<std::uint64_t>(kShareOfMemory * static_cast<double>(free_memory()));
   viewer.rasterizer = rasterizer_of(options.draw);
   viewer.policy = budget_of(options.draw);
-  viewer.point_size = point_size_of(options.draw).pixels;
-  viewer.splat_size = point_size_of(options.draw).world;
+  viewer.point_size = point_size_of(options.draw);
   viewer.background = parse_color("--background", options.draw.background);
   viewer.shaded = options.eye_dome.on;
   viewer.eye_dome = eye_dome_options_of(options.eye_dome);
@@ -72,7 +71,7 @@ void take_settings(ViewerOptions& viewer, const CLI::App& command) {
   const ViewerSettings settings = read_settings(settings_path());
   const auto open = [&](const char* name) { return command.get_option(name)->count() == 0; };
   if (open("--background")) viewer.background = settings.background;
-  if (open("--point-size")) viewer.point_size = settings.point_size;
+  if (open("--point-size")) viewer.point_size.pixels = settings.point_size;
   if (open("--fps") && open("--budget")) viewer.policy.frames_per_second = settings.frames_per_second;
   if (open("--edl")) viewer.shaded = settings.shaded;
   if (open("--edl-strength")) viewer.eye_dome.strength = settings.eye_dome.strength;

@@ -39,8 +39,8 @@ std::string text_of(const RenderCommand& command) {
                       command.mode, command.raster, command.size.x, command.size.y, text_of(command.camera.eye),
                       text_of(command.camera.target), text_of(command.camera.up), command.camera.fov_deg);
   line += fmt::format(" --color {} --point-size {} --background {:06x}", quoted(command.colors.attribute),
-                      command.point_size, command.background);
-  if (command.splat_size > 0.0) line += fmt::format(" --splat-size {}", command.splat_size);
+                      command.point_size.pixels, command.background);
+  if (command.point_size.world > 0.0) line += fmt::format(" --splat-size {}", command.point_size.world);
   if (command.colors.ramp != Ramp::viridis) line += fmt::format(" --ramp {}", name_of(command.colors.ramp));
   if (command.colors.hidden.any()) line += fmt::format(" --hide-class {}", stipple::text_of(command.colors.hidden));
   if (command.shading)

@@ -8,6 +8,7 @@
 
 #include "render/frame/camera.h"
 #include "render/frame/eye_dome.h"
+#include "render/frame/point_size.h"
 #include "render/store/colorize.h"
 
 namespace stipple {
@@ -19,8 +20,7 @@ struct RenderCommand {
   Camera camera;
   glm::ivec2 size{0};
   ColorMap colors;
-  double point_size = 1.0;
-  double splat_size = 0.0;  // 0: none
+  PointSize point_size;
   std::uint32_t background = 0;
   std::optional<EyeDomeOptions> shading{};
 };

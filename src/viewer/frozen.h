@@ -18,6 +18,10 @@ class Frozen final : public Method {
     return {.items = {points_.vertices()}};
   }
   bool finished() const override { return drawn_; }
+  std::optional<std::vector<ColoredPoints>> colored() const override {
+    const CarriedVertices vertices = points_.vertices();
+    return std::vector<ColoredPoints>{{vertices.points, vertices.ids}};
+  }
 
  private:
   VertexCarry points_;

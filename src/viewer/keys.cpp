@@ -40,6 +40,8 @@ constexpr auto kTable = std::to_array<KeyEntry>({
     {"C", "colour by the next attribute", Command::next_color, 0, false, 'c'},
     {"+ -", "larger points, smaller points", Command::larger_points, 0, false, '+'},
     {"", "", Command::smaller_points, 0, false, '-'},
+    {"] [", "near points as larger round splats, as smaller ones or none", Command::larger_splats, 0, false, ']'},
+    {"", "", Command::smaller_splats, 0, false, '['},
     {"K", "hide the class of the picked point; without one, show all", Command::hide_class, 0, false, 'k'},
     {"L", "eye-dome lighting: shape by depth", Command::shade, 0, false, 'l'},
     {"X", "forget the picked points", Command::clear_picks, 0, false, 'x'},

@@ -31,6 +31,8 @@ enum class Command {
   next_color,
   larger_points,
   smaller_points,
+  larger_splats,
+  smaller_splats,
   shade,
   hide_class,
   clear_picks,

@@ -34,8 +34,23 @@ void Pane::show(Content next, bool other_points) {
   thaw();
 }
 
-void Pane::set_point_size(double pixels) {
-  const PointSize point_size(pixels, point_size_.world);
+void Pane::recolor(const ColorUpload& colors, std::shared_ptr<const Dataset> dataset) {
+  const bool selects = dataset->colors.hidden != content_.colors.hidden;
+  content_.colors = dataset->colors;
+  if (frozen_) {
+    frozen_->points->recolor(colors, dataset->points);
+    frozen_->renderer->recolor(colors);
+    if (selects) frozen_->renderer->use(*frozen_->points);
+  }
+  renderer_->recolor(colors);
+  if (selects) {
+    renderer_->use(*content_.method);
+    drawn_view_ = {};
+  }
+  if (content_.dataset) content_.dataset = std::move(dataset);
+}
+
+void Pane::set_point_size(const PointSize& point_size) {
   if (renderer_) {
     auto renderer = make_renderer(*content_.method, content_.grid, point_size);
     if (frozen_) frozen_->renderer = make_renderer(*frozen_->points, content_.grid, point_size);

@@ -28,10 +28,14 @@ class Pane {
   // From now on draws this, beginning with the picture that is there unless the points are others or their colours.
   // Throws Error as ProgressiveRenderer does; then it shows what it showed.
   void show(Content next, bool other_points);
+  // Its method's points have these colours now, which are those of `dataset`, and the picture gets them, too. Where
+  // other classes are hidden, the view is drawn again, beginning with the picture.
+  void recolor(const ColorUpload& colors, std::shared_ptr<const Dataset> dataset);
   // Throws Error where the rasterizer draws no such points; then they stay as they were.
-  void set_point_size(double pixels);
+  void set_point_size(const PointSize& point_size);
+  const PointSize& point_size() const { return point_size_; }
   // From nothing.
-  void begin_again() { set_point_size(point_size_.pixels); }
+  void begin_again() { set_point_size(PointSize(point_size_)); }
   // Keeps the points of the last frame, if there is one: from now on views show them and no others.
   void freeze();
   // Goes on drawing where it was.

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "src/cli/cli.h"
@@ -37,6 +38,8 @@ const char* phase_text(WorkStatus::Phase phase) {
       return "building the octree";
     case WorkStatus::Phase::preparing:
       return "preparing the method";
+    case WorkStatus::Phase::coloring:
+      return "colouring the points";
     case WorkStatus::Phase::idle:
       break;
   }
@@ -149,6 +152,20 @@ void show_pace(const PanelFacts& facts, PanelWishes& wishes) {
   }
 }
 
+void show_sizes(const PanelFacts& facts, PanelWishes& wishes) {
+  const PointSize& now = facts.point_size;
+  auto pixels = static_cast<float>(now.pixels);
+  if (ImGui::SliderFloat("point size", &pixels, 1.0f, 10.0f, "%.0f px", ImGuiSliderFlags_AlwaysClamp) &&
+      std::round(pixels) != static_cast<float>(now.pixels))
+    wishes.point_size = PointSize(std::round(pixels), now.world);
+  // In the cloud's own units
+  auto world = static_cast<float>(now.world);
+  const auto most = static_cast<float>(std::max(32.0 * facts.spacing, now.world));
+  if (ImGui::SliderFloat("splat size", &world, 0.0f, most, now.world > 0.0 ? "%.3g" : "none",
+                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    wishes.point_size = PointSize(now.pixels, world);
+}
+
 void show_look(const PanelFacts& facts, PanelWishes& wishes) {
   const auto& info = facts.stage.info();
   const Dataset* dataset = facts.stage.dataset();
@@ -164,9 +181,7 @@ void show_look(const PanelFacts& facts, PanelWishes& wishes) {
     show_legend(*dataset, choice);
     if (choice != before) wishes.color = choice;
   }
-  auto size = static_cast<float>(facts.point_size);
-  ImGui::SliderFloat("point size", &size, 1.0f, 10.0f, "%.0f px", ImGuiSliderFlags_AlwaysClamp);
-  if (size != static_cast<float>(facts.point_size)) wishes.point_size = std::round(size);
+  show_sizes(facts, wishes);
   std::array<float, 3> color{};
   for (std::size_t c = 0; c < 3; ++c) color[c] = static_cast<float>(facts.background >> (16 - 8 * c) & 0xFFu) / 255.0f;
   if (ImGui::ColorEdit3("background", color.data(), ImGuiColorEditFlags_NoInputs)) {

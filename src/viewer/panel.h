@@ -37,7 +37,8 @@ struct PanelFacts {
   std::uint32_t budget = 0;
   BudgetPolicy policy;
   ColorChoice color;
-  double point_size = 1.0;
+  PointSize point_size;
+  double spacing = 1.0;  // of the points, about, world units
   std::uint32_t background = 0;
   bool shaded = false;
   EyeDomeOptions eye_dome;
@@ -61,7 +62,7 @@ struct PanelWishes {
   std::vector<Command> commands;
   std::optional<std::pair<Mode, Stage::Side>> mode;
   std::optional<ColorChoice> color;
-  std::optional<double> point_size;
+  std::optional<PointSize> point_size;
   std::optional<std::uint32_t> background;
   std::optional<EyeDomeOptions> eye_dome;
   std::optional<BudgetPolicy> policy;

@@ -20,6 +20,7 @@ class Preview final : public Method {
   void start_view(const View&) override { drawn_ = 0; }
   Selection select(std::uint32_t budget) override;
   bool finished() const override { return drawn_ == size_; }
+  std::optional<std::vector<ColoredPoints>> colored() const override { return colored_points(cloud_); }
 
  private:
   // Several files begin to count anew each

@@ -19,6 +19,7 @@ void Stage::open(const Opening& opening, bool again) {
   ready_.clear();
   preview_.reset();
   again_ = again;
+  opened_ = false;
   outdated_ = {true, true};
   error_.clear();
   wanted_[left] = opening.mode;
@@ -26,6 +27,15 @@ void Stage::open(const Opening& opening, bool again) {
   asked_ = {opening.mode};
   workshop_.open(opening);
   if (split_) want(wanted_[right], right);
+}
+
+bool Stage::can_recolor() const {
+  return opened_ && !dataset_->tree;
+}
+
+void Stage::recolor(const ColorChoice& color) {
+  error_.clear();
+  workshop_.recolor(color);
 }
 
 void Stage::want(Mode mode, Side side) {
@@ -52,9 +62,9 @@ void Stage::split(bool on) {
   want(wanted_[right], right);
 }
 
-void Stage::set_point_size(double pixels) {
+void Stage::set_point_size(const PointSize& point_size) {
   try {
-    for (Pane& pane : panes_) pane.set_point_size(pixels);
+    for (Pane& pane : panes_) pane.set_point_size(point_size);
   } catch (const Error& e) {
     error_ = e.what();
   }
@@ -89,6 +99,26 @@ void Stage::take(const finished::Preview& preview) {
 void Stage::take(const finished::Cloud& cloud) {
   dataset_ = cloud.dataset;
   info_ = cloud.dataset->info;
+  opened_ = true;
+}
+
+void Stage::take(const finished::Colors& colors) {
+  dataset_ = colors.dataset;
+  color_bytes_ = colors.upload->bytes();
+  std::set<Method*> recolored;
+  const auto recolor = [&](Method& method) {
+    if (recolored.insert(&method).second) method.recolor(*colors.upload, dataset_->points);
+  };
+  for (auto& [mode, content] : ready_) {
+    recolor(*content.method);
+    content.dataset = dataset_;
+    content.colors = dataset_->colors;
+  }
+  for (const Side side : kSides) {
+    if (panes_[side].empty() || outdated_[side]) continue;
+    recolor(*panes_[side].content().method);
+    panes_[side].recolor(*colors.upload, dataset_);
+  }
 }
 
 void Stage::take(finished::MadeMethod made) {
@@ -109,7 +139,7 @@ void Stage::take(const finished::Failure& failure) {
   error_ = failure.message;
   if (failure.mode)
     asked_.erase(*failure.mode);
-  else
+  else if (!failure.recoloring)
     asked_.clear();
   for (const Side side : kSides) {
     const std::optional<Mode> shown = panes_[side].mode();

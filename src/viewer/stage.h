@@ -22,11 +22,17 @@ class Stage {
 
   // The last picture stays until there is a new one. `again`: the same points, in other colours say.
   void open(const Opening& opening, bool again = false);
+  // The points that are there get these colours: only what these come from is read, and nothing but them goes to the
+  // GPU.
+  void recolor(const ColorChoice& color);
+  // Whether that is so of what is open: all its points are in memory. Else it is to be opened again.
+  bool can_recolor() const;
   // As soon as it is ready. Where the other side has it, the sides change places.
   void want(Mode mode, Side side = left);
   // Whether the right side is drawn.
   void split(bool on);
-  void set_point_size(double pixels);
+  // Where the rasterizer draws no such points, they stay as they are and there is an error.
+  void set_point_size(const PointSize& point_size);
   // The pictures begin anew, from nothing.
   void begin_again();
 
@@ -38,6 +44,7 @@ class Stage {
   void take(const finished::Beginning& beginning);
   void take(const finished::Preview& preview);
   void take(const finished::Cloud& cloud);
+  void take(const finished::Colors& colors);
   void take(finished::MadeMethod made);
   void take(const finished::Failure& failure);
 
@@ -60,6 +67,8 @@ class Stage {
   const Dataset* dataset() const { return dataset_.get(); }        // null: none is open
   const std::optional<SourceInfo>& info() const { return info_; }  // of what is open, or being read
   Grid grid() const { return panes_[left].content().grid; }        // of what frame() shows
+  // Sent to the GPU by the last change of colours.
+  std::uint64_t color_bytes() const { return color_bytes_; }
   const std::string& error() const { return error_; }
   void dismiss_error() { error_.clear(); }
 
@@ -74,6 +83,8 @@ class Stage {
   std::set<Mode> asked_;                 // of the workshop, and not come yet
   std::shared_ptr<Preview> preview_;
   bool again_ = false;
+  bool opened_ = false;  // the dataset is of what was opened last
+  std::uint64_t color_bytes_ = 0;
   std::string error_;
   bool split_ = false;
   std::array<Mode, 2> wanted_{Mode::hybrid, Mode::unstructured};

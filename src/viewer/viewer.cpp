@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -15,6 +16,16 @@ namespace {
 
 constexpr double kWorkInterval = 0.1;  // seconds between two looks at what is being loaded
 
+// How far apart points are that lie evenly on the ground of the box, or on its largest side, to two digits.
+double spacing_of(const WorldBox& box, std::uint64_t points) {
+  const glm::dvec3 e = box.max - box.min;
+  const double area = std::max({e.x * e.y, e.x * e.z, e.y * e.z});
+  if (!(area > 0.0) || points == 0) return 1.0;
+  const double spacing = std::sqrt(area / static_cast<double>(points));
+  const double digit = std::pow(10.0, std::floor(std::log10(spacing)) - 1.0);
+  return digit * std::round(spacing / digit);
+}
+
 }  // namespace
 
 Viewer::Viewer(Window& window, ViewerOptions options)
@@ -22,7 +33,7 @@ Viewer::Viewer(Window& window, ViewerOptions options)
       options_(std::move(options)),
       gui_(window),
       workshop_(window),
-      stage_(workshop_, options_.rasterizer, PointSize(options_.point_size, options_.splat_size)),
+      stage_(workshop_, options_.rasterizer, options_.point_size),
       pointer_(4.0 * window.text_scale()),
       screenshot_(options_.screenshot) {
   size_ = glm::max(window_.size(), 1);
@@ -79,8 +90,9 @@ void Viewer::open(const std::vector<std::string>& inputs) {
                .aspect = static_cast<double>(size_.x) / size_.y});
 }
 
-void Viewer::reopen(const ColorChoice& color) {
+void Viewer::color_by(const ColorChoice& color) {
   options_.color = color;
+  if (stage_.can_recolor()) return stage_.recolor(color);
   stage_.open({.inputs = options_.inputs,
                .color = color,
                .mode = stage_.wanted(),
@@ -115,6 +127,7 @@ void Viewer::take(const finished::Beginning& beginning) {
 
 void Viewer::take(const finished::Cloud& cloud) {
   home_ = cloud.home;
+  spacing_ = spacing_of(cloud.box, cloud.dataset->info.point_count);
   home_aspect_ = static_cast<double>(size_.x) / size_.y;
   for (const std::string& warning : cloud.dataset->info.warnings) note_ = warning;
   if (std::exchange(entered_, true)) return;
@@ -127,8 +140,18 @@ void Viewer::take(const finished::Cloud& cloud) {
   awaited_ = false;
 }
 
+void Viewer::take(const finished::Colors&) {
+  if (!workshop_.will_recolor()) choose_shown_colors();
+}
+
+void Viewer::choose_shown_colors() {
+  const ColorMap& colors = stage_.dataset()->colors;
+  options_.color = ColorChoice(colors.attribute, colors.ramp, colors.hidden);
+}
+
 void Viewer::take(const finished::Failure& failure) {
   if (options_.exit_after_screenshot && !screenshot_.empty() && !failure.cancelled) throw Error(failure.message);
+  if (failure.recoloring) choose_shown_colors();
   if (failure.cancelled)
     note_ = "cancelled";
   else

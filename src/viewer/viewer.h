@@ -36,8 +36,7 @@ struct ViewerOptions {
   MethodOptions method;
   RasterizerKind rasterizer = RasterizerKind::compute;
   BudgetPolicy policy;
-  double point_size = 1.0;
-  double splat_size = 0.0;
+  PointSize point_size;
   std::uint32_t background = 0x808080;
   bool shaded = false;  // by eye-dome lighting
   EyeDomeOptions eye_dome;
@@ -89,6 +88,7 @@ class Viewer {
   int divider_column() const { return divider_column(size_.x); }
   std::uint64_t frames_shown() const { return frames_shown_; }
   const ReferenceComparison& comparison() const { return comparison_; }
+  const PointSize& point_size() const { return options_.point_size; }
   const std::string& note() const { return note_; }
 
  private:
@@ -100,10 +100,12 @@ class Viewer {
   void take_finished();
   void take(const finished::Beginning& beginning);
   void take(const finished::Cloud& cloud);
+  void take(const finished::Colors& colors);
   void take(const finished::Failure& failure);
   void take(const finished::Description& description);
   void enter(const WorldBox& box, const Camera& home);
-  void reopen(const ColorChoice& color);
+  void color_by(const ColorChoice& color);
+  void choose_shown_colors();
 
   void take_event(const InputEvent& event);
   void press(const InputEvent& event);
@@ -122,7 +124,9 @@ class Viewer {
   void take_tree();
   void record();
   void replay();
-  void set_point_size(double pixels);
+  void set_point_size(const PointSize& wanted);
+  void larger_splats();
+  void smaller_splats();
 
   void read_answers();
   void ask_under_cursor();
@@ -171,6 +175,7 @@ class Viewer {
   glm::ivec2 size_{1};    // of the last frame
   bool entered_ = false;  // the open cloud
   bool awaited_ = false;  // it is being read, and what its header says is in sight
+  double spacing_ = 1.0;  // of its points, about, world units
   std::optional<Camera> home_;
   double home_aspect_ = 1.0;
 

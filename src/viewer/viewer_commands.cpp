@@ -72,9 +72,13 @@ void Viewer::execute(Command command) {
     case Command::next_color:
       return next_color();
     case Command::larger_points:
-      return set_point_size(options_.point_size + 1.0);
+      return set_point_size({options_.point_size.pixels + 1.0, options_.point_size.world});
     case Command::smaller_points:
-      return set_point_size(options_.point_size - 1.0);
+      return set_point_size({options_.point_size.pixels - 1.0, options_.point_size.world});
+    case Command::larger_splats:
+      return larger_splats();
+    case Command::smaller_splats:
+      return smaller_splats();
     case Command::hide_class:
       return hide_class();
     case Command::shade:
@@ -140,7 +144,7 @@ void Viewer::next_color() {
   const auto now = std::ranges::find(names, choice.attribute);
   const std::size_t next = now == names.end() ? 0 : static_cast<std::size_t>(now - names.begin()) + 1;
   choice.attribute = names[next % names.size()];
-  reopen(choice);
+  color_by(choice);
 }
 
 void Viewer::want_screenshot(const std::optional<glm::ivec2>& size) {
@@ -187,7 +191,7 @@ void Viewer::hide_class() {
     note_ = fmt::format("class {} {} is hidden", value->second, class_name(static_cast<int>(number)));
     picks_.clear();
   }
-  reopen(choice);
+  color_by(choice);
 }
 
 void Viewer::record() {
@@ -221,9 +225,20 @@ void Viewer::replay() {
     note_ = "there is no path: R records one";
 }
 
-void Viewer::set_point_size(double pixels) {
-  options_.point_size = std::clamp(pixels, 1.0, 10.0);
-  stage_.set_point_size(options_.point_size);
+void Viewer::set_point_size(const PointSize& wanted) {
+  stage_.set_point_size({std::clamp(wanted.pixels, 1.0, 10.0), std::max(wanted.world, 0.0)});
+  options_.point_size = stage_.pane().point_size();
+}
+
+// The first are as large as the points are apart.
+void Viewer::larger_splats() {
+  const PointSize& now = options_.point_size;
+  set_point_size({now.pixels, now.world > 0.0 ? 2.0 * now.world : spacing_});
+}
+
+void Viewer::smaller_splats() {
+  const PointSize& now = options_.point_size;
+  set_point_size({now.pixels, now.world > spacing_ ? 0.5 * now.world : 0.0});
 }
 
 }  // namespace stipple

@@ -72,7 +72,7 @@ void Viewer::draw_cloud() {
 std::optional<ReferencePainter::Subject> Viewer::compared() const {
   const std::shared_ptr<const Dataset>& dataset = stage_.pane().content().dataset;
   if (!comparison_.on() || !dataset || !dataset->in_memory()) return std::nullopt;
-  return ReferencePainter::Subject{dataset, wanted_view(), {options_.point_size, options_.splat_size}};
+  return ReferencePainter::Subject{dataset, wanted_view(), options_.point_size};
 }
 
 // A reference is missing that has not been asked for: the camera has hardly stopped.
@@ -168,6 +168,7 @@ void Viewer::show_panels() {
                                          .policy = options_.policy,
                                          .color = options_.color,
                                          .point_size = options_.point_size,
+                                         .spacing = spacing_,
                                          .background = options_.background,
                                          .shaded = options_.shaded,
                                          .eye_dome = options_.eye_dome,
@@ -191,7 +192,7 @@ void Viewer::show_panels() {
 void Viewer::grant(const PanelWishes& wishes) {
   for (const Command command : wishes.commands) execute(command);
   if (wishes.mode) stage_.want(wishes.mode->first, wishes.mode->second);
-  if (wishes.color) reopen(*wishes.color);
+  if (wishes.color) color_by(*wishes.color);
   if (wishes.point_size) set_point_size(*wishes.point_size);
   if (wishes.background) options_.background = *wishes.background;
   if (wishes.eye_dome) options_.eye_dome = *wishes.eye_dome;

@@ -15,7 +15,7 @@ namespace stipple {
 
 ViewerSettings Viewer::settings() const {
   return {.background = options_.background,
-          .point_size = options_.point_size,
+          .point_size = options_.point_size.pixels,
           .frames_per_second = options_.policy.frames_per_second.value_or(ViewerSettings{}.frames_per_second),
           .shaded = options_.shaded,
           .eye_dome = options_.eye_dome,
@@ -88,8 +88,8 @@ void Viewer::take_screenshot_if_due() {
 void Viewer::write_screenshot(const std::string& path) {
   Json facts{{"mode", name_of(*stage_.pane().mode())},
              {"raster", name_of(options_.rasterizer)},
-             {"point_size", options_.point_size},
-             {"splat_size", options_.splat_size},
+             {"point_size", options_.point_size.pixels},
+             {"splat_size", options_.point_size.world},
              {"background", fmt::format("{:06x}", options_.background)},
              {"edl", json_of(shading())},
              {"shows", name_of(comparison_.shown())},
@@ -113,7 +113,6 @@ void Viewer::copy_command() {
                                               .size = size_,
                                               .colors = dataset->colors,
                                               .point_size = options_.point_size,
-                                              .splat_size = options_.splat_size,
                                               .background = options_.background,
                                               .shading = shading()}));
   note_ = "the command that renders this view is in the clipboard";

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "octree/cloud/cloud.h"
+#include "octree/cloud/columns.h"
 #include "octree/core/error.h"
 #include "octree/open/open.h"
 #include "octree/store/open_tree.h"
@@ -26,6 +27,29 @@ void check_room(const SourceInfo& info, std::uint64_t bytes_per_point, const Mem
       "{}: its {} points would take about {:.1f} GB of memory, and {:.1f} are free. Build an octree (stipple "
       "build) and open that: mode hybrid draws it from disk.",
       info.path, info.point_count, static_cast<double>(bytes) * 1e-9, static_cast<double>(limits.main) * 1e-9));
+}
+
+// What is read of it now would not belong to the points that were read before.
+void check_same(const SourceInfo& then, const SourceInfo& now) {
+  const bool same = then.point_count == now.point_count && then.grid.offset == now.grid.offset &&
+                    then.grid.scale == now.grid.scale && then.schema == now.schema &&
+                    then.stated_bounds.min == now.stated_bounds.min && then.stated_bounds.max == now.stated_bounds.max;
+  if (!same)
+    throw Error(fmt::format("{}: is not the cloud any more that it was when it was opened. Open it again.", now.path));
+}
+
+// What is wrong with it, if it throws; `purpose`: what memory was asked for.
+std::optional<finished::Failure> failure_of(const std::function<void()>& task, const std::string& purpose) {
+  try {
+    task();
+    return std::nullopt;
+  } catch (const Cancelled&) {
+    return finished::Failure{.message = {}, .mode = {}, .cancelled = true};
+  } catch (const std::bad_alloc&) {
+    return finished::Failure{.message = fmt::format("there is too little memory for {}", purpose), .mode = {}};
+  } catch (const std::exception& e) {
+    return finished::Failure{.message = e.what(), .mode = {}};
+  }
 }
 
 }  // namespace
@@ -49,13 +73,24 @@ void Workshop::open(const Opening& opening) {
     ++asked_;
     watch_.stop = true;
     tasks_.clear();
+    color_.reset();
     finished_.clear();
   }
   add([this, opening] {
     opening_ = opening;
     dataset_.reset();
+    colorist_ = {};
     open_now();
   });
+}
+
+void Workshop::recolor(const ColorChoice& color) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (recoloring_) watch_.stop = true;
+    if (std::exchange(color_, color)) return;
+  }
+  add([this] { recolor_now(); });
 }
 
 void Workshop::make(Mode mode) {
@@ -70,6 +105,13 @@ void Workshop::cancel() {
   const std::lock_guard lock(mutex_);
   watch_.stop = true;
   tasks_.clear();
+  if (std::exchange(color_, std::nullopt) && !recoloring_)
+    finished_.push_back(finished::Failure{.message = {}, .mode = {}, .cancelled = true, .recoloring = true});
+}
+
+bool Workshop::will_recolor() const {
+  const std::lock_guard lock(mutex_);
+  return color_.has_value();
 }
 
 void Workshop::add(Task task) {
@@ -142,15 +184,7 @@ void Workshop::work() {
 }
 
 void Workshop::run(const Task& task) {
-  try {
-    task();
-  } catch (const Cancelled&) {
-    deliver(finished::Failure{.message = "", .mode = {}, .cancelled = true});
-  } catch (const std::bad_alloc&) {
-    deliver(finished::Failure{.message = "there is too little memory for this cloud", .mode = {}});
-  } catch (const std::exception& e) {
-    deliver(finished::Failure{.message = e.what(), .mode = {}});
-  }
+  if (auto failure = failure_of(task, "this cloud")) deliver(std::move(*failure));
 }
 
 void Workshop::open_now() {
@@ -199,31 +233,72 @@ void Workshop::read_all_points() {
   deliver_cloud(std::make_shared<Dataset>(std::move(whole)));
 }
 
-void Workshop::make_now(Mode mode) {
-  try {
-    if (!dataset_) throw Error("the cloud could not be read; open it again");
-    const DatasetNeeds needs = needs_of(mode);
-    if (needs.points && !dataset_->in_memory()) read_all_points();
-    if (needs.octree && !dataset_->tree && !dataset_->octree) {
-      begin(Phase::sorting);
-      check_room(dataset_->info, kBytesPerPointOfOctree, opening_.method.limits);
-      auto ordered = std::make_shared<Dataset>(*dataset_);
-      add_octree(*ordered);
-      deliver_cloud(ordered);
-    }
-    begin(Phase::preparing);
-    auto method = make_method(mode, *dataset_, opening_.method);
-    // The window's context is to see what was uploaded
-    glFinish();
-    deliver(finished::MadeMethod{mode, dataset_, std::move(method)});
-  } catch (const Cancelled&) {
-    deliver(finished::Failure{.message = "", .mode = mode, .cancelled = true});
-  } catch (const std::bad_alloc&) {
-    deliver(finished::Failure{.message = fmt::format("there is too little memory for mode {}", name_of(mode)),
-                              .mode = mode});
-  } catch (const std::exception& e) {
-    deliver(finished::Failure{.message = e.what(), .mode = mode});
+void Workshop::recolor_now() {
+  ColorChoice color;
+  {
+    const std::lock_guard lock(mutex_);
+    color = *std::exchange(color_, std::nullopt);
+    recoloring_ = true;
   }
+  auto failure = failure_of([&] { change_colors(std::move(color)); }, "other colours");
+  {
+    const std::lock_guard lock(mutex_);
+    recoloring_ = false;
+    // What was stopped for other colours has not failed
+    if (failure && failure->cancelled && color_) failure.reset();
+  }
+  if (!failure) return;
+  failure->recoloring = true;
+  deliver(std::move(*failure));
+}
+
+void Workshop::change_colors(ColorChoice color) {
+  begin(Phase::coloring);
+  color.attribute = choose_color(dataset_->info.schema, color.attribute);
+  check_room(dataset_->info, kBytesPerPointOfColors, opening_.method.limits);
+  const Colorist::Colors colors = colorist_.color(
+      *dataset_, color, [this](const std::vector<std::string>& attributes) { return read_columns(attributes); });
+  auto other = std::make_shared<Dataset>(recolored(*dataset_, colors));
+  auto upload = std::make_unique<ColorUpload>(colors.by_id);
+  // The window's context is to see what was uploaded
+  glFinish();
+  dataset_ = std::move(other);
+  deliver(finished::Colors{dataset_, std::move(upload)});
+}
+
+std::vector<Column> Workshop::read_columns(const std::vector<std::string>& attributes) {
+  const auto source = open_source(opening_.inputs);
+  check_same(dataset_->info, source->info());
+  const WatchedSource watched(*source, watch_, {}, {});
+  begin(Phase::reading);
+  std::vector<Column> columns = load_columns(watched, attributes);
+  begin(Phase::coloring);
+  return columns;
+}
+
+void Workshop::make_now(Mode mode) {
+  auto failure = failure_of([&] { make_method_now(mode); }, fmt::format("mode {}", name_of(mode)));
+  if (!failure) return;
+  failure->mode = mode;
+  deliver(std::move(*failure));
+}
+
+void Workshop::make_method_now(Mode mode) {
+  if (!dataset_) throw Error("the cloud could not be read; open it again");
+  const DatasetNeeds needs = needs_of(mode);
+  if (needs.points && !dataset_->in_memory()) read_all_points();
+  if (needs.octree && !dataset_->tree && !dataset_->octree) {
+    begin(Phase::sorting);
+    check_room(dataset_->info, kBytesPerPointOfOctree, opening_.method.limits);
+    auto ordered = std::make_shared<Dataset>(*dataset_);
+    add_octree(*ordered);
+    deliver_cloud(ordered);
+  }
+  begin(Phase::preparing);
+  auto method = make_method(mode, *dataset_, opening_.method);
+  // The window's context is to see what was uploaded
+  glFinish();
+  deliver(finished::MadeMethod{mode, dataset_, std::move(method)});
 }
 
 void Workshop::describe_now(std::uint32_t id, const glm::ivec3& position) {

@@ -17,6 +17,8 @@
 
 #include "octree/store/tree_source.h"
 #include "render/method/method.h"
+#include "render/store/color_upload.h"
+#include "render/store/colorist.h"
 #include "render/store/dataset.h"
 #include "src/viewer/watched_source.h"
 #include "src/viewer/window.h"
@@ -34,7 +36,7 @@ struct Opening {
 
 // What is being done just now.
 struct WorkStatus {
-  enum class Phase { idle, opening, reading, sorting, preparing };
+  enum class Phase { idle, opening, reading, sorting, preparing, coloring };
   Phase phase = Phase::idle;
   std::uint64_t points = 0;  // read so far
   std::uint64_t total = 0;   // 0: not known
@@ -56,6 +58,11 @@ struct Cloud {
   WorldBox box;  // where it is
   Camera home;   // sees all of it
 };
+// The points of the cloud have other colours, and nothing else is other.
+struct Colors {
+  std::shared_ptr<const Dataset> dataset;
+  std::unique_ptr<ColorUpload> upload;  // of the same
+};
 // Ready to draw; it draws from `dataset`, which has to live as long.
 struct MadeMethod {
   Mode mode;
@@ -67,6 +74,7 @@ struct Failure {
   std::string message;
   std::optional<Mode> mode;  // of a method that could not be made; else nothing could be opened
   bool cancelled = false;
+  bool recoloring = false;  // it was other colours that were asked for
 };
 // All that is known of a point: name and value.
 struct Description {
@@ -74,8 +82,8 @@ struct Description {
   std::vector<std::pair<std::string, std::string>> values;
 };
 }  // namespace finished
-using Finished = std::variant<finished::Beginning, finished::Preview, finished::Cloud, finished::MadeMethod,
-                              finished::Failure, finished::Description>;
+using Finished = std::variant<finished::Beginning, finished::Preview, finished::Cloud, finished::Colors,
+                              finished::MadeMethod, finished::Failure, finished::Description>;
 
 // One thread with an OpenGL context of its own. All functions are for the window's thread.
 class Workshop {
@@ -88,6 +96,11 @@ class Workshop {
 
   // Forgets what it had and what was asked for: from now on everything is about this.
   void open(const Opening& opening);
+  // Gives the points of what is open, all of them in memory and no octree on disk, these colours. Ends a change of
+  // colours that is not done.
+  void recolor(const ColorChoice& color);
+  // Other colours than those that take() gives next are asked for.
+  bool will_recolor() const;
   // Makes the method for what is open, or about to be.
   void make(Mode mode);
   // Looks up the point with this id at this place.
@@ -111,7 +124,11 @@ class Workshop {
   void open_files();
   void open_octree();
   void read_all_points();
+  void recolor_now();
+  void change_colors(ColorChoice color);
+  std::vector<Column> read_columns(const std::vector<std::string>& attributes);
   void make_now(Mode mode);
+  void make_method_now(Mode mode);
   void describe_now(std::uint32_t id, const glm::ivec3& position);
 
   SharedContext context_;
@@ -119,14 +136,17 @@ class Workshop {
   // The thread's own
   Opening opening_;
   std::shared_ptr<const Dataset> dataset_;
+  Colorist colorist_;
 
   ReadWatch watch_;
   mutable std::mutex mutex_;  // guards what follows
   std::condition_variable wake_;
   std::deque<Task> tasks_;
   std::vector<Finished> finished_;
-  std::uint64_t asked_ = 0;    // openings asked for
-  std::uint64_t working_ = 0;  // that which the thread is at
+  std::optional<ColorChoice> color_;  // asked for, and a task waits for it
+  bool recoloring_ = false;           // is what the thread is at
+  std::uint64_t asked_ = 0;           // openings asked for
+  std::uint64_t working_ = 0;         // that which the thread is at
   WorkStatus::Phase phase_ = WorkStatus::Phase::idle;
   std::chrono::steady_clock::time_point phase_start_;
   bool stop_ = false;

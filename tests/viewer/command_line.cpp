@@ -23,11 +23,12 @@ TEST(CommandLine, SaysAllThatThePictureDependsOn) {
                                                  .camera = {.eye = {-0.1, 2, 3}, .target = {637000.25, 5, 6}},
                                                  .size = {640, 480},
                                                  .colors = {.attribute = "point source id"},
-                                                 .point_size = 2.0,
+                                                 .point_size = {2.0, 0.25},
                                                  .background = 0x0A0B0C});
   EXPECT_EQ(text,
             "stipple render a.las 'b c.las' -o view.png --mode hybrid --raster compute --size 640x480 --eye=-0.1,2,3 "
-            "--target=637000.25,5,6 --up=0,0,1 --fov 60 --color 'point source id' --point-size 2 --background 0a0b0c");
+            "--target=637000.25,5,6 --up=0,0,1 --fov 60 --color 'point source id' --point-size 2 --background 0a0b0c "
+            "--splat-size 0.25");
 }
 
 TEST(ExactText, HasTheDecimalsOfTheGrid) {

@@ -156,6 +156,25 @@ TEST_F(ViewerWindow, PointsGrowAndShrinkAndPicksAreForgotten) {
   EXPECT_EQ(viewer_->picture().rgb, small.rgb);
 }
 
+TEST_F(ViewerWindow, SplatsAppearGrowAndVanish) {
+  start();
+  ASSERT_TRUE(complete());
+  const Image without = viewer_->picture();
+  display().press("bracketright");
+  ASSERT_TRUE(until([&] { return viewer_->point_size().world > 0.0; }));
+  const double first = viewer_->point_size().world;
+  display().press("bracketright");
+  ASSERT_TRUE(until([&] { return viewer_->point_size().world == 2.0 * first; }));
+  ASSERT_TRUE(complete());
+  EXPECT_NE(viewer_->picture().rgb, without.rgb);
+  EXPECT_EQ(viewer_->picture().rgb, headless().rgb);
+  display().press("bracketleft");
+  display().press("bracketleft");
+  ASSERT_TRUE(until([&] { return viewer_->point_size().world == 0.0; }));
+  ASSERT_TRUE(complete());
+  EXPECT_EQ(viewer_->picture().rgb, without.rgb);
+}
+
 TEST_F(ViewerWindow, ShowsTwoMethodsSideBySideWithOneCamera) {
   start(2.0);
   ASSERT_TRUE(complete());
@@ -303,16 +322,65 @@ TEST_F(ViewerWindow, ADoubleClickSetsThePivot) {
   EXPECT_TRUE(until([&] { return viewer_->rig().pivot() != before; }));
 }
 
-TEST_F(ViewerWindow, EveryColourIsThatOfRender) {
-  start();
+TEST_F(ViewerWindow, EveryColourIsThatOfRenderAndIsGivenToWhatIsThere) {
+  start(2.0);
   ASSERT_TRUE(complete());
-  for (int i = 0; i < 2; ++i) {
+  const std::uint64_t drawn = viewer_->stage().frames();
+  for (int i = 0; i < 3; ++i) {
     const std::string before = viewer_->stage().dataset()->colors.attribute;
     display().press("c");
     ASSERT_TRUE(until([&] { return viewer_->stage().dataset()->colors.attribute != before; }));
     ASSERT_TRUE(complete());
     EXPECT_EQ(viewer_->picture().rgb, headless().rgb) << viewer_->stage().dataset()->colors.attribute;
+    EXPECT_EQ(viewer_->stage().color_bytes(), 4 * kPoints);
   }
+  EXPECT_EQ(viewer_->stage().frames(), drawn) << "the picture is not drawn again";
+}
+
+// Those on screen and those that were made before, in the middle of a picture as well.
+TEST_F(ViewerWindow, EveryMethodTakesOtherColours) {
+  start(2.0);
+  ASSERT_TRUE(complete());
+  for (const char* key : {"F1", "F2", "F4", "F5", "F6"}) {
+    display().press(key);
+    ASSERT_TRUE(complete()) << key;
+  }
+  display().press("v");
+  ASSERT_TRUE(complete());
+  const auto attribute = [&] { return viewer_->stage().dataset()->colors.attribute; };
+  const std::string before = attribute();
+  viewer_->execute(Command::again);
+  viewer_->execute(Command::next_color);
+  ASSERT_TRUE(until([&] {
+    viewer_->execute(Command::again);
+    return attribute() != before;
+  }));
+  ASSERT_TRUE(complete());
+  display().press("v");
+  const Image rendered = headless();
+  for (const char* key : {"F2", "F1", "F4", "F6", "F3"}) {
+    display().press(key);
+    ASSERT_TRUE(complete()) << key;
+    EXPECT_EQ(viewer_->picture().rgb, rendered.rgb) << key;
+  }
+}
+
+TEST_F(ViewerWindow, AChangeOfColoursIsCancelledOrTakenOverByTheNext) {
+  start(2.0);
+  ASSERT_TRUE(complete());
+  const std::vector<std::string> names = colors_of(*viewer_->stage().info());
+  const std::string before = viewer_->stage().dataset()->colors.attribute;
+  ASSERT_EQ(before, names[0]);
+  viewer_->execute(Command::next_color);
+  viewer_->execute(Command::cancel);
+  ASSERT_TRUE(complete());
+  EXPECT_EQ(viewer_->note(), "cancelled");
+  EXPECT_EQ(viewer_->stage().dataset()->colors.attribute, before);
+  EXPECT_EQ(viewer_->stage().error(), "");
+  for (int i = 0; i < 3; ++i) viewer_->execute(Command::next_color);
+  ASSERT_TRUE(complete());
+  EXPECT_EQ(viewer_->stage().dataset()->colors.attribute, names[3]);
+  EXPECT_EQ(viewer_->picture().rgb, headless().rgb);
 }
 
 TEST_F(ViewerWindow, EyeDomeLightingShadesWhatIsShownAndNothingElse) {
@@ -423,22 +491,31 @@ TEST_F(ViewerWindow, ShowsBoxesOfWhatIsDrawnFrom) {
   }
 }
 
-TEST_F(ViewerWindow, HidesTheClassOfAPickedPoint) {
+TEST_F(ViewerWindow, HidesTheClassOfAPickedPointAndShowsItAgain) {
   start(4.0);
   ASSERT_TRUE(complete());
+  const Image whole = viewer_->picture();
   display().click(1);
   ASSERT_TRUE(until([&] { return !viewer_->picks().empty() && !viewer_->picks()[0].values.empty(); }));
   const std::uint32_t id = viewer_->picks()[0].pixel.id;
   display().press("k");
-  ASSERT_TRUE(until([&] { return viewer_->stage().dataset()->colors.hidden.count() == 1; }));
+  const auto hidden = [&] { return viewer_->stage().dataset()->colors.hidden.count(); };
+  ASSERT_TRUE(until([&] {
+    EXPECT_TRUE(covered()) << "no frame is blank";
+    return hidden() == 1;
+  }));
   ASSERT_TRUE(complete());
   display().click(1);
   steps(10);
   for (const Pick& pick : viewer_->picks()) EXPECT_NE(pick.pixel.id, id);
   EXPECT_EQ(viewer_->picture().rgb, headless().rgb);
+  // Without the file: its classes are known, and so are the colours that were hidden
+  std::filesystem::remove(city_);
   display().press("x");
   display().press("k");
-  ASSERT_TRUE(until([&] { return viewer_->stage().dataset()->colors.hidden.none(); }));
+  ASSERT_TRUE(until([&] { return hidden() == 0; }));
+  ASSERT_TRUE(complete());
+  EXPECT_EQ(viewer_->picture().rgb, whole.rgb);
 }
 
 TEST_F(ViewerWindow, GoesOnAtAnySize) {
