@@ -9,7 +9,6 @@
 
 #include "octree/read/laz/return_context.h"
 #include "tests/read/laz_encoder.h"
-#include "tests/read/laz_fixture.h"
 
 namespace stipple::test {
 
