@@ -17,7 +17,7 @@
 namespace stipple {
 namespace {
 
-struct Options {
+struct InfoArguments {
   std::vector<std::string> inputs;
   bool exact = false;
   bool json = false;
@@ -178,7 +178,7 @@ void print_as_text(const TreeInfo& info, const Nodes& nodes) {
                                                        with_thousands(levels[i].points)));
 }
 
-void run_on_tree(const Options& options) {
+void run_on_tree(const InfoArguments& options) {
   const auto store = open_tree(options.inputs.front());
   TreeInfo info = store->info();
   for (const std::string& warning : info.source.warnings) warn(fmt::format("{}: {}", info.source.path, warning));
@@ -199,7 +199,7 @@ void run_on_tree(const Options& options) {
   print_json(document);
 }
 
-void run_on_file(const Options& options) {
+void run_on_file(const InfoArguments& options) {
   const auto source = open_source(options.inputs);
   const SourceInfo& info = source->info();
   for (const std::string& warning : info.warnings) warn(fmt::format("{}: {}", info.path, warning));
@@ -212,7 +212,7 @@ void run_on_file(const Options& options) {
 }  // namespace
 
 void add_info_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoArguments>();
   CLI::App* command = app.add_subcommand("info", "Say what a point cloud file or an octree holds.");
   command
       ->add_option("INPUT", options->inputs,

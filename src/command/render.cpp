@@ -21,6 +21,7 @@
 #include "src/cli/color_flags.h"
 #include "src/cli/draw_options.h"
 #include "src/cli/eye_dome_flags.h"
+#include "src/cli/stereo_flags.h"
 #include "src/json/json.h"
 #include "src/run/loading_run.h"
 #include "src/run/peak_memory.h"
@@ -51,6 +52,7 @@ struct Options {
   DrawOptions draw;
   ColorFlags color;
   EyeDomeFlags eye_dome;
+  StereoFlags stereo;
   bool json = false;
 };
 
@@ -67,6 +69,15 @@ std::optional<EyeDomeOptions> shading_of(const Options& options) {
 std::vector<std::uint32_t> shaded_colors(const FeedbackTarget& frame, const EyeDomeOptions& shading) {
   EyeDome eye_dome;
   return read_colors(eye_dome.shade(frame, shading));
+}
+
+FrameData read_picture(ProgressiveRenderer& renderer, const View& view, const std::optional<EyeDomeOptions>& shading) {
+  std::vector<FrameData> frames;
+  for (std::size_t eye = 0; eye < view.eyes(); ++eye) {
+    frames.push_back(renderer.read(eye));
+    if (shading) frames.back().rgba = shaded_colors(*renderer.frame(eye), *shading);
+  }
+  return side_by_side(std::move(frames));
 }
 
 // The one called --view, or the only one there is.
@@ -101,16 +112,45 @@ Camera proposed_camera(const PointSet& points, double aspect) {
   return propose_cameras(points, aspect).front().camera;
 }
 
+View view_asked_for(const Options& options, const Camera& camera, const glm::ivec2& size, const Grid& grid) {
+  View view = make_view(camera, size, near_plane(grid));
+  view.eyes_apart = eyes_apart_of(options.stereo, camera);
+  return view;
+}
+
+Json json_of_eye(const View& view, const EyeState& state) {
+  return {{"eye", json_of(view.eye)},
+          {"points_reprojected", state.points_reprojected},
+          {"covered_pixels", state.covered_pixels}};
+}
+
+// Null where there is one eye.
+Json stereo_json(const View& view, const std::vector<EyeState>& eyes) {
+  if (view.eyes() == 1) return nullptr;
+  return {{"eyes_apart", view.eyes_apart},
+          {"left", json_of_eye(view.of_eye(0), eyes[0])},
+          {"right", json_of_eye(view.of_eye(1), eyes[1])}};
+}
+
 Picture draw_reference(const Dataset& dataset, const View& view, const PointSize& point_size) {
   const auto start = std::chrono::steady_clock::now();
-  Picture picture{render_reference(dataset.points, view, point_size), {}};
+  std::vector<FrameData> frames;
+  std::vector<EyeState> eyes;
+  for (std::size_t eye = 0; eye < view.eyes(); ++eye) {
+    frames.push_back(render_reference(dataset.points, view.of_eye(eye), point_size));
+    eyes.push_back({.covered_pixels = frames.back().covered_pixels()});
+  }
+  Picture picture{side_by_side(std::move(frames)), {}};
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  picture.stats = {{"points_drawn", dataset.points.size()},
+  picture.stats = {{"views", view.eyes()},
+                   {"points_drawn", dataset.points.size()},
                    {"points_reprojected", 0},
+                   {"points_in_views", view.eyes() * dataset.points.size()},
                    {"frames", 1},
                    {"converged", true},
                    {"ms", ms},
                    {"covered_pixels", picture.frame.covered_pixels()},
+                   {"stereo", stereo_json(view, eyes)},
                    {"nodes_visible", 0},
                    {"nodes_occluded", 0},
                    {"bytes_read", 0},
@@ -118,13 +158,16 @@ Picture draw_reference(const Dataset& dataset, const View& view, const PointSize
   return picture;
 }
 
-Json stats_of(const FrameState& state, const SelectionCounts& counts) {
-  return {{"points_drawn", state.points_drawn},
+Json stats_of(const View& view, const FrameState& state, const SelectionCounts& counts) {
+  return {{"views", view.eyes()},
+          {"points_drawn", state.points_drawn},
           {"points_reprojected", state.points_reprojected},
+          {"points_in_views", state.points_in_views()},
           {"frames", state.frame},
           {"converged", state.converged},
           {"ms", state.milliseconds},
           {"covered_pixels", state.covered_pixels},
+          {"stereo", stereo_json(view, state.eyes)},
           {"nodes_visible", counts.nodes_visible},
           {"nodes_occluded", counts.nodes_occluded},
           {"pixels_estimated", counts.pixels_estimated},
@@ -141,9 +184,7 @@ Picture draw_with_gl(const Options& options, Mode mode, const Dataset& dataset, 
   const auto method = make_method(mode, dataset, method_options_of(options.draw));
   ProgressiveRenderer renderer(*method, rasterizer_of(options.draw), dataset.points.grid, point_size);
   const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
-  const SelectionCounts counts = method->counts();
-  Picture picture{renderer.read(), stats_of(state, counts)};
-  if (const auto shading = shading_of(options)) picture.frame.rgba = shaded_colors(*renderer.frame(), *shading);
+  Picture picture{read_picture(renderer, view, shading_of(options)), stats_of(view, state, method->counts())};
   picture.stats.update(context_provenance(context));
   return picture;
 }
@@ -193,7 +234,7 @@ LoadedPicture draw_while_loading(const Options& options, Mode mode, const PointS
   color.attribute = choose_color(source.info().schema, color.attribute);
   BackgroundLoad load(source, color);
   LoadingDrawing drawing(load, mode, method_options_of(options.draw), rasterizer_of(options.draw), grid, point_size,
-                         budget_of(options.draw), view.size);
+                         budget_of(options.draw), view);
   const Until until = parse_until(options.until);
   Json frames = Json::array();
   FrameState state;
@@ -210,9 +251,9 @@ LoadedPicture draw_while_loading(const Options& options, Mode mode, const PointS
     part->colors = color.complete({.attribute = color.attribute});
     dataset = std::move(part);
   }
-  LoadedPicture drawn{{drawing.renderer().read(), stats_of(state, drawing.loading().counts())}, std::move(dataset)};
-  if (const auto shading = shading_of(options))
-    drawn.picture.frame.rgba = shaded_colors(*drawing.renderer().frame(), *shading);
+  LoadedPicture drawn{
+      {read_picture(drawing.renderer(), view, shading_of(options)), stats_of(view, state, drawing.loading().counts())},
+      std::move(dataset)};
   drawn.picture.stats["while_loading"] = loading_json(drawing, state, std::move(frames));
   drawn.picture.stats.update(context_provenance(context));
   return drawn;
@@ -326,7 +367,7 @@ void run_while_loading(const Options& options, Mode mode, const glm::ivec2& size
   check_memory(info, mode == Mode::hybrid, limits_of(options.draw));
   const auto asked = camera_asked_for(options);
   const Camera camera = asked ? *asked : proposed_camera(stated_corners(info), static_cast<double>(size.x) / size.y);
-  const View view = make_view(camera, size, near_plane(info.grid));
+  const View view = view_asked_for(options, camera, size, info.grid);
   const LoadedPicture drawn = draw_while_loading(options, mode, *source, view, point_size);
   write_results(options, drawn.picture, *drawn.dataset, view);
 }
@@ -336,6 +377,7 @@ void run(const Options& options) {
   const glm::ivec2 size = parse_size("--size", options.draw.size);
   const PointSize point_size = point_size_of(options.draw);
   parse_color("--background", options.draw.background);
+  check(options.stereo, size);
   check(options, mode);
   if (options.while_loading) return run_while_loading(options, *mode, size, point_size);
 
@@ -344,7 +386,7 @@ void run(const Options& options) {
   for (const std::string& warning : dataset.info.warnings) warn(warning);
   const auto asked = camera_asked_for(options);
   const Camera camera = asked ? *asked : proposed_camera(dataset.overview(), static_cast<double>(size.x) / size.y);
-  const View view = make_view(camera, size, near_plane(dataset.points.grid));
+  const View view = view_asked_for(options, camera, size, dataset.points.grid);
   const Picture picture =
       mode ? draw_with_gl(options, *mode, dataset, view, point_size) : draw_reference(dataset, view, point_size);
   write_results(options, picture, dataset, view);
@@ -390,6 +432,7 @@ void add_render_command(CLI::App& app) {
       ->needs(eye)
       ->capture_default_str();
   add_color_flags(*command, options->color);
+  add_stereo_flags(*command, options->stereo);
   add_eye_dome_flags(*command, options->eye_dome);
   command
       ->add_option("--until", options->until,
