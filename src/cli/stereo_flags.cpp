@@ -28,9 +28,9 @@ void add_stereo_flags(CLI::App& command, StereoFlags& flags) {
 
 void check(const StereoFlags& flags, const glm::ivec2& size) {
   if (!flags.apart.empty()) parse_positive("--eyes-apart", flags.apart);
-  if (flags.on && size.x > kLargestSide / 2)
+  if (flags.on && size.x > kLargestPictureSide / 2)
     throw UsageError(fmt::format("--stereo: two pictures {} pixels wide are wider than {} together; each may be {}",
-                                 size.x, kLargestSide, kLargestSide / 2));
+                                 size.x, kLargestPictureSide, kLargestPictureSide / 2));
 }
 
 double eyes_apart_of(const StereoFlags& flags, const Camera& camera) {
