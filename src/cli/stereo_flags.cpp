@@ -6,12 +6,6 @@
 #include "src/cli/cli.h"
 
 namespace stipple {
-namespace {
-
-// Of the distance to what is looked at: the rule of thumb of stereo photographers.
-constexpr double kShareOfDistance = 1.0 / 30.0;
-
-}  // namespace
 
 void add_stereo_flags(CLI::App& command, StereoFlags& flags) {
   CLI::Option* on = command.add_flag(
@@ -35,7 +29,7 @@ void check(const StereoFlags& flags, const glm::ivec2& size) {
 
 double eyes_apart_of(const StereoFlags& flags, const Camera& camera) {
   if (!flags.on) return 0.0;
-  return flags.apart.empty() ? kShareOfDistance * glm::distance(camera.eye, camera.target)
+  return flags.apart.empty() ? kUsualEyesApart * glm::distance(camera.eye, camera.target)
                              : parse_positive("--eyes-apart", flags.apart);
 }
 
