@@ -42,6 +42,10 @@ struct View {
   double pixel_size(double depth) const { return 2.0 * depth / (cot_y * size.y); }
 };
 
+// How far apart two eyes are where nothing is said, as a share of the distance to what they look at: the rule of thumb
+// of stereo photographers.
+inline constexpr double kUsualEyesApart = 1.0 / 30.0;
+
 // Throws UsageError when eye and target coincide, the field of view is out of range, or size is not positive. An `up`
 // parallel to the line of sight is replaced by the axis farthest from it.
 View make_view(const Camera& camera, const glm::ivec2& size, double near);

@@ -47,8 +47,10 @@ class ProgressiveRenderer {
   // converged, still view costs nothing. Commands are issued, not awaited.
   FrameReport draw(const View& view, std::uint32_t budget);
 
-  // The last frame of this eye of the last view, on the GPU; null before the first. Valid until the next draw().
+  // The last frame of this eye, on the GPU; null before the first, and where the last view had fewer eyes. Valid until
+  // the next draw().
   const FeedbackTarget* frame(std::size_t eye = 0) const {
+    if (eye >= eyes_.size()) return nullptr;
     const auto& target = eyes_[eye].targets[current_];
     return target ? &*target : nullptr;
   }

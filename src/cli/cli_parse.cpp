@@ -54,10 +54,12 @@ glm::ivec2 parse_size(std::string_view option, std::string_view text) {
   if (x != std::string_view::npos) {
     const auto width = number<int>(text.substr(0, x));
     const auto height = number<int>(text.substr(x + 1));
-    if (width && height && *width >= 1 && *width <= kLargestSide && *height >= 1 && *height <= kLargestSide)
+    if (width && height && *width >= 1 && *width <= kLargestPictureSide && *height >= 1 &&
+        *height <= kLargestPictureSide)
       return {*width, *height};
   }
-  throw bad_value(option, text, fmt::format("WIDTHxHEIGHT in pixels, 1 to {} each, such as 1280x720", kLargestSide));
+  throw bad_value(option, text,
+                  fmt::format("WIDTHxHEIGHT in pixels, 1 to {} each, such as 1280x720", kLargestPictureSide));
 }
 
 glm::dvec3 parse_vector(std::string_view option, std::string_view text) {

@@ -6,12 +6,6 @@
 #include "src/cli/cli.h"
 
 namespace stipple {
-namespace {
-
-// Of the distance to what is looked at: the rule of thumb of stereo photographers.
-constexpr double kShareOfDistance = 1.0 / 30.0;
-
-}  // namespace
 
 void add_stereo_flags(CLI::App& command, StereoFlags& flags) {
   CLI::Option* on = command.add_flag(
@@ -28,14 +22,14 @@ void add_stereo_flags(CLI::App& command, StereoFlags& flags) {
 
 void check(const StereoFlags& flags, const glm::ivec2& size) {
   if (!flags.apart.empty()) parse_positive("--eyes-apart", flags.apart);
-  if (flags.on && size.x > kLargestSide / 2)
+  if (flags.on && size.x > kLargestPictureSide / 2)
     throw UsageError(fmt::format("--stereo: two pictures {} pixels wide are wider than {} together; each may be {}",
-                                 size.x, kLargestSide, kLargestSide / 2));
+                                 size.x, kLargestPictureSide, kLargestPictureSide / 2));
 }
 
 double eyes_apart_of(const StereoFlags& flags, const Camera& camera) {
   if (!flags.on) return 0.0;
-  return flags.apart.empty() ? kShareOfDistance * glm::distance(camera.eye, camera.target)
+  return flags.apart.empty() ? kUsualEyesApart * glm::distance(camera.eye, camera.target)
                              : parse_positive("--eyes-apart", flags.apart);
 }
 

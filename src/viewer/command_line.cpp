@@ -40,6 +40,7 @@ std::string text_of(const RenderCommand& command) {
                       text_of(command.camera.target), text_of(command.camera.up), command.camera.fov_deg);
   line += fmt::format(" --color {} --point-size {} --background {:06x}", quoted(command.colors.attribute),
                       command.point_size, command.background);
+  if (command.eyes_apart > 0.0) line += fmt::format(" --stereo --eyes-apart {}", command.eyes_apart);
   if (command.splat_size > 0.0) line += fmt::format(" --splat-size {}", command.splat_size);
   if (command.colors.ramp != Ramp::viridis) line += fmt::format(" --ramp {}", name_of(command.colors.ramp));
   if (command.colors.hidden.any()) line += fmt::format(" --hide-class {}", stipple::text_of(command.colors.hidden));

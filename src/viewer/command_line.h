@@ -17,7 +17,8 @@ struct RenderCommand {
   std::string mode;
   std::string raster;
   Camera camera;
-  glm::ivec2 size{0};
+  glm::ivec2 size{0};       // for each eye
+  double eyes_apart = 0.0;  // 0: there is one
   ColorMap colors;
   double point_size = 1.0;
   double splat_size = 0.0;  // 0: none

@@ -11,8 +11,6 @@
 namespace stipple {
 namespace {
 
-constexpr int kLargestSide = 16'384;  // as --size takes it
-
 void show_progress(const TreeJob& job, PanelWishes& wishes) {
   const TreeJob::Status status = job.status();
   const BuildEstimate now = estimate(status.progress, status.seconds);
@@ -41,7 +39,7 @@ void show_pictures(const PanelFacts& facts, PanelWishes& wishes) {
   ImGui::TextDisabled("picture, when nothing is left to draw");
   for (const int times : {1, 2, 4}) {
     const glm::ivec2 size = times * window;
-    if (std::max(size.x, size.y) > kLargestSide) break;
+    if (std::max(size.x, size.y) > kLargestPictureSide) break;
     if (times > 1) ImGui::SameLine();
     if (ImGui::Button(fmt::format("{} x {}", size.x, size.y).c_str())) wishes.picture = size;
   }

@@ -37,11 +37,9 @@ class EachMethodInStereo : public testing::TestWithParam<std::tuple<std::string,
     for (FrameReport report; !report.converged; filled += report.points_filled) report = renderer.draw(view, budget);
     return filled;
   }
-  void expect_brute_force(ProgressiveRenderer& renderer, const Dataset& dataset, const View& view,
-                          const PointSize& point_size = {}) const {
+  void expect_brute_force(ProgressiveRenderer& renderer, const Dataset& dataset, const View& view) const {
     for (std::size_t eye = 0; eye < view.eyes(); ++eye)
-      EXPECT_TRUE(same_picture(renderer.read(eye),
-                               brute_force_picture(dataset.points, rasterizer(), view.of_eye(eye), point_size)))
+      EXPECT_TRUE(same_picture(renderer.read(eye), brute_force_picture(dataset.points, rasterizer(), view.of_eye(eye))))
           << "eye " << eye;
   }
 };
@@ -80,20 +78,27 @@ TEST_P(EachMethodInStereo, EachEyeConvergesToBruteForceWhereverItWas) {
   expect_brute_force(renderer, dataset, view);
 }
 
-TEST_P(EachMethodInStereo, EachEyeConvergesToBruteForceWithNearSplats) {
-  const Dataset& dataset = scene("forest", kPoints);
-  const PointSize point_size(2.0, 1.5);
-  const auto drawn = method(dataset);
-  ProgressiveRenderer renderer(*drawn, rasterizer(), dataset.points.grid, point_size);
-  const View view = two_eyes(view_of(dataset, "low", {80, 60}), 3.0);
-  converge(renderer, view);
-  expect_brute_force(renderer, dataset, view, point_size);
-}
-
 class EachRasterizerInStereo : public testing::TestWithParam<RasterizerKind> {};
 INSTANTIATE_TEST_SUITE_P(Rasterizers, EachRasterizerInStereo,
                          testing::Values(RasterizerKind::points, RasterizerKind::compute),
                          [](const auto& param) { return std::string(name_of(param.param)); });
+
+// Those methods that ask how large points are on the screen.
+TEST_P(EachRasterizerInStereo, EachEyeConvergesToBruteForceWithNearSplats) {
+  const Dataset& dataset = scene("forest", kPoints);
+  const PointSize point_size(2.0, 1.5);
+  const View view = two_eyes(view_of(dataset, "low", {80, 60}), 3.0);
+  for (const Mode mode : {Mode::hierarchical, Mode::hybrid, Mode::lod}) {
+    const auto method = make_method(mode, dataset.points, &*dataset.octree);
+    ProgressiveRenderer renderer(*method, GetParam(), dataset.points.grid, point_size);
+    while (!renderer.draw(view, mode == Mode::lod ? kPoints : 20'000).converged) {
+    }
+    for (std::size_t eye = 0; eye < 2; ++eye)
+      EXPECT_TRUE(same_picture(renderer.read(eye),
+                               brute_force_picture(dataset.points, GetParam(), view.of_eye(eye), point_size)))
+          << name_of(mode) << " " << eye;
+  }
+}
 
 // Draws the points in the order they have, and counts how often it is asked for some.
 class CountedSelections final : public Method {
@@ -185,7 +190,7 @@ PointSet wall_before_another(int points_each) {
 }
 
 TEST_P(EachRasterizerInStereo, HybridLeavesOutWhatIsHiddenFromBothEyes) {
-  constexpr int kEach = 40'000;
+  constexpr int kEach = 25'000;
   const PointSet points = wall_before_another(kEach);
   const View view = two_eyes(front_view(1.5, {64, 48}), 1.0);
   const auto streamed = [&](const View& seen) {
