@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "src/cli/cli.h"
 #include "src/run/build_estimate.h"
 
 namespace stipple {
