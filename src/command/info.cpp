@@ -124,7 +124,7 @@ Json tree_json(const TreeInfo& info, const Nodes& nodes) {
           {"levels", json_levels}};
 }
 
-std::string text_of(const glm::dvec3& v) {
+std::string triple_of(const glm::dvec3& v) {
   return fmt::format("{}  {}  {}", v.x, v.y, v.z);
 }
 
@@ -143,13 +143,13 @@ void print_as_text(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
   if (bytes) print_line("file size", fmt::format("{} bytes", with_thousands(*bytes)));
   if (const auto each = bytes_per_point(bytes, info.point_count))
     print_line("", fmt::format("{:.2f} bytes a point, all included", *each));
-  print_line("grid scale", text_of(info.grid.scale));
-  print_line("grid offset", text_of(info.grid.offset));
+  print_line("grid scale", triple_of(info.grid.scale));
+  print_line("grid offset", triple_of(info.grid.offset));
   if (info.stated_bounds.empty()) {
     print_line("stated bounds", "none");
   } else {
-    print_line("stated min", text_of(info.stated_bounds.min));
-    print_line("stated max", text_of(info.stated_bounds.max));
+    print_line("stated min", triple_of(info.stated_bounds.min));
+    print_line("stated max", triple_of(info.stated_bounds.max));
   }
   std::string_view label = "attributes";
   for (const Attribute& attribute : info.schema) {
@@ -163,7 +163,7 @@ void print_as_text(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
 void print_as_text(const TreeInfo& info, const Nodes& nodes) {
   const std::vector<Level>& levels = nodes.levels;
   print_line("nodes", with_thousands(nodes.count));
-  print_line("cube min", text_of(info.cube.min));
+  print_line("cube min", triple_of(info.cube.min));
   print_line("cube edge", fmt::format("{}", info.cube.edge));
   if (info.spacing > 0.0)
     print_line("spacing", fmt::format("{} in the root, half of it with every level", info.spacing));
