@@ -19,6 +19,7 @@ layout(location = 0) uniform vec3 background;
 layout(location = 1) uniform ivec2 size;       // of the picture
 layout(location = 2) uniform bool upside_down; // row 0 is the lowest one, as in a window
 layout(location = 3) uniform int divider;      // first column of the right frame
+layout(location = 4) uniform int first_column; // of the picture in the framebuffer
 
 layout(location = 0) out vec4 color;
 
@@ -42,7 +43,7 @@ vec4 color_at(isampler2D points, usampler2D ids, ivec2 pixel) {
 #endif
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(first_column, 0);
   if (upside_down) pixel.y = size.y - 1 - pixel.y;
 #ifdef SPLIT
   if (pixel.x >= divider) {

@@ -17,6 +17,10 @@ layout(location = 1) uniform uint first;         // of the open clusters
 layout(location = 2) uniform bool all;           // not of the open clusters, but of all
 layout(location = 3) uniform int most_levels;    // of the pyramid
 layout(location = 4) uniform float root_edge;    // world units
+#ifdef TWO_EYES
+layout(location = 5) uniform uint second_silhouettes;  // place of the first of the second eye's
+layout(location = 6) uniform vec3 to_second_eye;       // from the first, whose view is bound; world units
+#endif
 
 // Rounding of projected coordinates, of the magnitudes that went into them: float has 6e-8, a few times.
 const float kRounding = 4e-6;
@@ -33,10 +37,11 @@ struct Outline {
   float nearest;  // distance along the line of sight, world units
 };
 
-Outline outline_of(ClusterBox box) {
-  vec3 low = world_from_eye(box.low);
-  vec3 high = world_from_eye(box.high);
-  vec3 reach = max(abs(low), abs(high));
+// Seen from `aside` of the eye whose view is bound, world units, in the same direction.
+Outline outline_of(ClusterBox box, vec3 aside) {
+  vec3 low = world_from_eye(box.low) - aside;
+  vec3 high = world_from_eye(box.high) - aside;
+  vec3 reach = max(abs(low), abs(high)) + abs(aside);
   vec3 slack = kRounding * vec3(dot(abs(view.right.xyz), reach), dot(abs(view.down.xyz), reach),
                                 dot(abs(view.forward.xyz), reach));
   const float kInfinity = uintBitsToFloat(0x7F800000u);
@@ -72,6 +77,10 @@ Outline outline_of(ClusterBox box) {
 uint pack_tile(ivec2 tile) { return uint(tile.x) | uint(tile.y) << 16; }
 
 Silhouette silhouette_of(Outline outline) {
+#ifdef TWO_EYES
+  // Only the other eye may see it: hidden here by whatever is drawn, and by nothing
+  if (outline.outside) return Silhouette(0u, 0u, -1.0, 0u);
+#endif
   // In front of everything: never hidden
   if (!outline.bounded) return Silhouette(0u, 0u, uintBitsToFloat(0x7F800000u), 0u);
   ivec2 low = ivec2(clamp(outline.low, vec2(0.0), vec2(view.size - 1)));
@@ -105,9 +114,15 @@ void main() {
   // 0.5 to 1 dB, and fading faster or slower is worth less
   const float kFading = 0.9;
   state.seen = state.status == kOutside ? 1.0 : mix(state.status == kOccluded ? 0.0 : state.seen, 1.0, kFading);
-  Outline outline = outline_of(box);
+  Outline outline = outline_of(box, vec3(0.0));
+  bool outside = outline.outside;
+#ifdef TWO_EYES
+  Outline second = outline_of(box, to_second_eye);
+  silhouettes[second_silhouettes + i] = silhouette_of(second);
+  outside = outside && second.outside;
+#endif
   // Rows without points are free
-  state.status = outline.outside || box.count == 0u ? kOutside : kOpen;
+  state.status = outside || box.count == 0u ? kOutside : kOpen;
   states[i] = state;
   if (state.status == kOpen) atomicAdd(sight.visible, 1u);
   silhouettes[i] = silhouette_of(outline);

@@ -1,4 +1,5 @@
-// For each open cluster: is it wholly behind the depth already drawn. Only certainty rules it out.
+// For each open cluster: is it wholly behind the depth already drawn. Only certainty rules it out. With TWO_EYES once for each
+// eye; the second decides for both.
 #include "clusters.glsl"
 layout(local_size_x = 64) in;
 #include "invocation.glsl"
@@ -19,6 +20,10 @@ float drawn_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(depth_drawn, pix
 
 layout(location = 0) uniform uint count;       // clusters to test
 layout(location = 2) uniform bool all;         // not of the open clusters, but of all
+#ifdef TWO_EYES
+layout(location = 1) uniform uint first_silhouette;  // place of the first of this eye's
+layout(location = 3) uniform bool decides;
+#endif
 layout(location = 5) uniform uvec4 levels[16];  // of the pyramid: first value, width, height
 
 ivec2 unpack_tile(uint tile) { return ivec2(tile & 0xFFFFu, tile >> 16); }
@@ -48,8 +53,15 @@ void main() {
   uint i = invocation_index();
   if (i >= count) return;
   if (!all) i = open_clusters[i];
+#ifdef TWO_EYES
+  float open = open_share(silhouettes[first_silhouette + i]);
+  if (decides) open = max(open, prospects[i].open);
+  bool hidden = decides && open == 0.0;
+#else
   float open = open_share(silhouettes[i]);
-  if (open == 0.0 && states[i].status == kOpen) {
+  bool hidden = open == 0.0;
+#endif
+  if (hidden && states[i].status == kOpen) {
     states[i].status = kOccluded;
     atomicAdd(sight.occluded, 1u);
   }

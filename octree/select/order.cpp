@@ -5,7 +5,7 @@
 
 namespace stipple {
 
-std::vector<VisibleNode> visible_nodes(const Octree& octree, const Frustum& frustum, const glm::dvec3& eye) {
+std::vector<VisibleNode> visible_nodes(const Octree& octree, const Frustum& frustum) {
   std::vector<VisibleNode> visible;
   std::vector<std::uint32_t> open;
   if (!octree.nodes.empty()) open.push_back(0);
@@ -18,7 +18,7 @@ std::vector<VisibleNode> visible_nodes(const Octree& octree, const Frustum& frus
       if (child != Node::kNone) open.push_back(child);
     if (node.count == 0) continue;
     const WorldBox own = world_box(octree.grid, node.box);
-    if (may_see(frustum, own)) visible.push_back({index, nearest_distance(eye, own)});
+    if (may_see(frustum, own)) visible.push_back({index, nearest_distance(frustum, own)});
   }
   std::sort(visible.begin(), visible.end(), [](const VisibleNode& a, const VisibleNode& b) {
     return std::tie(a.distance, a.node) < std::tie(b.distance, b.node);

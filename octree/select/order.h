@@ -12,11 +12,11 @@ namespace stipple {
 
 struct VisibleNode {
   std::uint32_t node = 0;
-  double distance = 0.0;  // from the eye to the box of the node's own points, world units
+  double distance = 0.0;  // from the eye, the nearer of two, to the box of the node's own points, world units
 };
 
-// The nodes with points of their own whose box may be seen, front to back from `eye`; at equal distance by number.
+// The nodes with points of their own whose box may be seen, front to back; at equal distance by number.
 // Subtrees out of sight are left out whole.
-std::vector<VisibleNode> visible_nodes(const Octree& octree, const Frustum& frustum, const glm::dvec3& eye);
+std::vector<VisibleNode> visible_nodes(const Octree& octree, const Frustum& frustum);
 
 }  // namespace stipple

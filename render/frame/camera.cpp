@@ -46,6 +46,13 @@ glm::dvec3 right_of(const glm::dvec3& forward, const glm::dvec3& up) {
 
 }  // namespace
 
+View View::of_eye(std::size_t number) const {
+  View view = *this;
+  if (eyes() == 2) view.eye += right * (number == 0 ? -0.5 * eyes_apart : 0.5 * eyes_apart);
+  view.eyes_apart = 0.0;
+  return view;
+}
+
 View make_view(const Camera& camera, const glm::ivec2& size, double near) {
   if (!(camera.fov_deg > 0.0 && camera.fov_deg < 180.0))
     throw UsageError(

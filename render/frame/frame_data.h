@@ -25,4 +25,7 @@ struct FrameData {
 // All arrays sized and empty.
 FrameData empty_frame(const glm::ivec2& size);
 
+// One picture of several of the same height, from left to right.
+FrameData side_by_side(std::vector<FrameData> frames);
+
 }  // namespace stipple

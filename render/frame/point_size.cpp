@@ -14,7 +14,7 @@ SplatRange splat_range(const PointSize& point_size, const View& view, const Worl
   if (point_size.world == 0.0) return SplatRange::far;
   // Where a splat is as wide as a far point
   const double threshold = point_size.splat_at_one(view) / point_size.pixels;
-  const double slack = kDepthSlack * farthest_distance(view.eye, box);
+  const double slack = kDepthSlack * (farthest_distance(view.eye, box) + 0.5 * view.eyes_apart);
   if (nearest_depth(view.eye, view.forward, box) - slack > threshold) return SplatRange::far;
   return -nearest_depth(view.eye, -view.forward, box) + slack < threshold ? SplatRange::near : SplatRange::across;
 }

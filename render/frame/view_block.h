@@ -29,7 +29,7 @@ struct ViewBlock {
 };
 static_assert(sizeof(ViewBlock) == 144);
 
-// The eye's cell is clamped to int32; what is beyond stays in the residual.
+// Of a view of one eye. The eye's cell is clamped to int32; what is beyond stays in the residual.
 ViewBlock make_view_block(const View& view, const Grid& grid, const PointSize& point_size);
 
 // The block on the GPU.
@@ -39,8 +39,9 @@ class ViewUniforms {
   // Writes the block and binds it to binding 0, where every pass expects it.
   void set(const ViewBlock& block) {
     buffer_.write(0, &block, sizeof block);
-    buffer_.bind_uniform(0);
+    bind();
   }
+  void bind() const { buffer_.bind_uniform(0); }
 
  private:
   GpuBuffer buffer_;

@@ -6,8 +6,10 @@
 namespace stipple {
 
 Frustum frustum_of(const View& view) {
-  return make_frustum(view.eye, view.right, view.up, view.forward, std::atan(1.0 / view.cot_x),
-                      std::atan(1.0 / view.cot_y));
+  Frustum frustum = make_frustum(view.eye, view.right, view.up, view.forward, std::atan(1.0 / view.cot_x),
+                                 std::atan(1.0 / view.cot_y));
+  frustum.to_side = view.right * (0.5 * view.eyes_apart);
+  return frustum;
 }
 
 double nearest_pixel_size(const View& view, const WorldBox& box) {

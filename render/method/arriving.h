@@ -27,11 +27,12 @@ class Arriving final : public Method {
   bool idle() const { return round_.left == 0; }
 
   Carry carry() const override { return indices_ ? Carry::indices : Carry::vertices; }
-  void forget() override;
   void start_view(const View&) override { round_.left = cloud_.slots(); }
-  std::vector<DrawItem> warm_up(const View&, const FeedbackTarget& frame) override;
-  Selection select(std::uint32_t budget) override;
-  void frame_drawn(const FeedbackTarget& frame) override { last_ = &frame; }
+  // The slots of what the frame shows are looked up now: since it was drawn, points may have been displaced.
+  void append_carried(const FeedbackTarget& last, std::vector<DrawItem>& items) override {
+    if (indices_) indices_->append_items(last, items);
+  }
+  Selection select(std::uint32_t budget) override { return round_.next(cloud_.cloud(), cloud_.slots(), budget); }
   bool finished() const override { return idle() && cloud_.complete(); }
   std::optional<std::vector<ColoredPoints>> colored() const override { return colored_points(cloud_.cloud()); }
 
@@ -39,7 +40,6 @@ class Arriving final : public Method {
   GrowingCloud cloud_;
   std::optional<IndexCarry> indices_;
   SlotRound round_;  // of this view, since the last points came
-  const FeedbackTarget* last_ = nullptr;
 };
 
 }  // namespace stipple

@@ -56,9 +56,8 @@ Program compile(const char* shader, std::vector<ShaderDefine> defines = {}) {
 ClusterSelector::ClusterSelector(const ClusterTable& table, const Options& options)
     : table_(&table),
       options_(options),
-      outline_(compile("select_outline.glsl")),
-      test_from_image_(compile("select_test.glsl")),
-      test_from_attachment_(compile("select_test.glsl", {{"FROM_ATTACHMENT"}})),
+      eyes_(1),
+      looks_of_one_(compile_looks({})),
       score_(compile("select_score.glsl")),
       cut_(compile("select_cut.glsl")),
       sums_(compile("select_scan.glsl", {{"SCAN_SUMS"}})),
@@ -80,6 +79,13 @@ ClusterSelector::ClusterSelector(const ClusterTable& table, const Options& optio
   forget();
 }
 
+ClusterSelector::Looks ClusterSelector::compile_looks(const std::vector<ShaderDefine>& defines) {
+  std::vector<ShaderDefine> from_attachment = defines;
+  from_attachment.push_back({"FROM_ATTACHMENT"});
+  return {compile("select_outline.glsl", defines), compile("select_test.glsl", defines),
+          compile("select_test.glsl", from_attachment)};
+}
+
 std::uint64_t ClusterSelector::bytes_for(std::uint64_t clusters, std::uint64_t budget) {
   return clusters *
              (sizeof(ClusterState) + sizeof(Stretch) + 2 * sizeof(std::uint32_t) + kSilhouetteBytes + kProspectBytes) +
@@ -89,7 +95,7 @@ std::uint64_t ClusterSelector::bytes_for(std::uint64_t clusters, std::uint64_t b
 void ClusterSelector::forget() {
   states_.fill(0);
   wishing_.fill(0);
-  start_view();
+  close_eyes();
 }
 
 void ClusterSelector::warm_up(const View& view, const FeedbackTarget& frame) {
@@ -107,18 +113,36 @@ void ClusterSelector::warm_up(const View& view, const FeedbackTarget& frame) {
   small.size = small.capacity = 1;
   table_ = &small;
   forget();
+  start_view(view);
   for (int frames = 0; frames < 2; ++frames) {
     select(view, 1);
-    learn(frame);
+    for (std::size_t eye = 0; eye < view.eyes(); ++eye) learn(frame, eye);
   }
   table_ = table;
   forget();
 }
 
-void ClusterSelector::start_view() {
-  drawn_ = nullptr;
+void ClusterSelector::start_view(const View& view) {
+  close_eyes();
+  if (eyes_open_ != view.eyes()) probe_.reset();
+  eyes_open_ = view.eyes();
+  if (eyes_open_ == 1) return;
+  to_second_eye_ = glm::vec3(view.right * view.eyes_apart);
+  if (looks_of_two_) return;
+  looks_of_two_ = compile_looks({{"TWO_EYES"}});
+  eyes_.emplace_back();
+  silhouettes_ = GpuBuffer(2 * silhouettes_.bytes());
+}
+
+void ClusterSelector::close_eyes() {
+  for (Eye& eye : eyes_) eye.drawn = nullptr;
   selected_ = false;
   added_ = 0;
+}
+
+bool ClusterSelector::sees_depth() const {
+  return options_.skip_occluded && std::all_of(eyes_.begin(), eyes_.begin() + static_cast<std::ptrdiff_t>(eyes_open_),
+                                               [](const Eye& eye) { return eye.drawn != nullptr; });
 }
 
 ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t budget) {
@@ -126,7 +150,8 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
   selected_ = true;
   taken_.clear();
   if (table_->size == 0) return {};
-  const Tested tested{table_->boxes, table_->log_pixels, states_, sight_, silhouettes_, prospects_, new_view};
+  const Tested tested{table_->boxes, table_->log_pixels, states_,  sight_,
+                      silhouettes_,  prospects_,         new_view, table_->capacity};
   if (new_view) {
     sight_.fill(0);
     outline(tested, 0, table_->size);
@@ -151,7 +176,7 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
 }
 
 void ClusterSelector::outline(const Tested& tested, std::uint32_t first, std::uint32_t count) {
-  outline_.use();
+  looks().outline.use();
   tested.boxes.bind_storage(0);
   tested.states.bind_storage(1);
   tested.log_pixels.bind_storage(2);
@@ -164,22 +189,36 @@ void ClusterSelector::outline(const Tested& tested, std::uint32_t first, std::ui
   glUniform1i(2, tested.all ? 1 : 0);
   glUniform1i(3, DepthPyramid::kMostLevels);
   glUniform1f(4, static_cast<float>(table_->root_edge));
+  if (eyes_open_ == 2) {
+    glUniform1ui(5, tested.capacity);
+    glUniform3fv(6, 1, &to_second_eye_.x);
+  }
   dispatch_items(count, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void ClusterSelector::test(const Tested& tested, std::uint32_t count) {
-  (drawn_->depth_storage() == DepthStorage::attachment ? test_from_attachment_ : test_from_image_).use();
-  drawn_->depth().bind(0);
+  for (std::size_t eye = 0; eye < eyes_open_; ++eye) test(tested, count, eye);
+}
+
+void ClusterSelector::test(const Tested& tested, std::uint32_t count, std::size_t eye) {
+  const FeedbackTarget& drawn = *eyes_[eye].drawn;
+  const DepthPyramid& pyramid = eyes_[eye].pyramid;
+  (drawn.depth_storage() == DepthStorage::attachment ? looks().test_from_attachment : looks().test_from_image).use();
+  drawn.depth().bind(0);
   tested.states.bind_storage(1);
-  pyramid_.values().bind_storage(3);
+  pyramid.values().bind_storage(3);
   open_clusters_.bind_storage(4);
   tested.sight.bind_storage(5);
   tested.silhouettes.bind_storage(6);
   tested.prospects.bind_storage(7);
   glUniform1ui(0, count);
   glUniform1i(2, tested.all ? 1 : 0);
-  glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid_.level_table()[0].first);
+  glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid.level_table()[0].first);
+  if (eyes_open_ == 2) {
+    glUniform1ui(1, eye == 0 ? 0 : tested.capacity);
+    glUniform1i(3, eye == 0 ? 0 : 1);
+  }
   dispatch_items(count, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
@@ -236,7 +275,8 @@ std::vector<bool> ClusterSelector::hidden(std::span<const GridBox> boxes) {
     probe_.emplace(Probe{GpuBuffer(kMostProbed * sizeof(ClusterTable::Row)),
                          GpuBuffer(kMostProbed * ClusterTable::kLevels * sizeof(float)),
                          GpuBuffer(kMostProbed * sizeof(ClusterState)), GpuBuffer(sizeof(Sight)),
-                         GpuBuffer(kMostProbed * kSilhouetteBytes), GpuBuffer(kMostProbed * kProspectBytes)});
+                         GpuBuffer(eyes_open_ * kMostProbed * kSilhouetteBytes),
+                         GpuBuffer(kMostProbed * kProspectBytes)});
     probe_->log_pixels.fill(0);
   }
   std::vector<bool> result;
@@ -246,8 +286,8 @@ std::vector<bool> ClusterSelector::hidden(std::span<const GridBox> boxes) {
     for (const GridBox& box : some) rows.push_back({box.min, 0, box.max, 1});
     probe_->boxes.write(0, std::span<const ClusterTable::Row>(rows));
     probe_->states.fill(0);
-    const Tested tested{
-        probe_->boxes, probe_->log_pixels, probe_->states, probe_->sight, probe_->silhouettes, probe_->prospects, true};
+    const Tested tested{probe_->boxes,       probe_->log_pixels, probe_->states, probe_->sight,
+                        probe_->silhouettes, probe_->prospects,  true,           kMostProbed};
     outline(tested, 0, static_cast<std::uint32_t>(some.size()));
     test(tested, static_cast<std::uint32_t>(some.size()));
     std::vector<ClusterState> states(some.size());
@@ -317,7 +357,7 @@ ClusterSelector::Result ClusterSelector::read_back() {
   return result;
 }
 
-void ClusterSelector::learn(const FeedbackTarget& frame) {
+void ClusterSelector::learn(const FeedbackTarget& frame, std::size_t eye) {
   if (options_.by_yield) {
     yield_.use();
     frame.ids().bind(1);
@@ -334,13 +374,13 @@ void ClusterSelector::learn(const FeedbackTarget& frame) {
       dispatch_items((taken_[c].stretches + 1) / 2, 64);
     }
   }
-  see(frame);
+  see(frame, eye);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void ClusterSelector::see(const FeedbackTarget& frame) {
-  if (options_.skip_occluded) pyramid_.build(frame);
-  drawn_ = &frame;
+void ClusterSelector::see(const FeedbackTarget& frame, std::size_t eye) {
+  if (options_.skip_occluded) eyes_[eye].pyramid.build(frame);
+  eyes_[eye].drawn = &frame;
 }
 
 }  // namespace stipple

@@ -17,7 +17,8 @@ namespace stipple {
 // those that are open still; ranks those left by urgency; and takes as many points as the budget has, the most urgent
 // first. What each asks for is the number of pixels it can cover. Clusters no point of which has been drawn come first,
 // near ones before far ones, then those whose latest points won most pixels. Passes: shaders/clusters.glsl. The same
-// budget takes the same points on any machine that computes the same floats.
+// budget takes the same points on any machine that computes the same floats. Two eyes have one selection: a cluster is
+// left out only where neither may see it, and the yield of its points is that of both.
 //
 // Of what is selected, the CPU reads back the totals alone: it waits for the frames before.
 class ClusterSelector {
@@ -45,13 +46,13 @@ class ClusterSelector {
   // The table must outlive the selector, and may grow to its capacity meanwhile.
   ClusterSelector(const ClusterTable& table, const Options& options);
 
-  // Has every pass run once, on a cloud of its own; forget() follows. See Method::warm_up().
+  // Has every pass run once, on a cloud of its own, and `frame` for each eye; forget() follows. See Method::warm_up().
   void warm_up(const View& view, const FeedbackTarget& frame);
   // No point was drawn ever.
   void forget();
   // Every point is to be drawn again, though clusters go on with the points that come next.
-  void start_view();
-  // At most `budget` points. The block of `view` is bound.
+  void start_view(const View& view);
+  // At most `budget` points. The block of the view's first eye is bound.
   Result select(const View& view, std::uint32_t budget);
   // The rows of these clusters are new: none of their points was drawn. They take part in the next select().
   void add(std::span<const ClusterRun> runs);
@@ -67,14 +68,14 @@ class ClusterSelector {
   // The clusters in sight. Waits for the GPU.
   std::vector<SightedBox> boxes() const;
   // Whether hidden() can tell: something was drawn in this view.
-  bool sees_depth() const { return drawn_ && options_.skip_occluded; }
+  bool sees_depth() const;
 
-  // What select() chose is drawn, in this frame and the view whose block is bound: sees what came of it. The frame
-  // must stay as it is until the next select() or forget().
-  void learn(const FeedbackTarget& frame);
+  // What select() chose is drawn, in this frame of an eye, whose block is bound: sees what came of it. The frame must
+  // stay as it is until the next select() or forget().
+  void learn(const FeedbackTarget& frame, std::size_t eye);
 
-  // The frame shows what is carried into this view.
-  void see(const FeedbackTarget& frame);
+  // The frame shows what is carried into this eye's view.
+  void see(const FeedbackTarget& frame, std::size_t eye);
 
   // Places in the chunks' buffers of the points taken.
   const GpuBuffer& places() const { return places_; }
@@ -82,7 +83,17 @@ class ClusterSelector {
   static std::uint64_t bytes_for(std::uint64_t clusters, std::uint64_t budget);
 
  private:
-  // The tables that a test reads and writes.
+  // The passes that look at clusters from one eye, or from two.
+  struct Looks {
+    Program outline;
+    Program test_from_image;
+    Program test_from_attachment;
+  };
+  struct Eye {
+    DepthPyramid pyramid;
+    const FeedbackTarget* drawn = nullptr;  // in this view; null: nothing yet
+  };
+  // The tables that a test reads and writes. Silhouettes of a second eye stand behind all of the first.
   struct Tested {
     const GpuBuffer& boxes;
     const GpuBuffer& log_pixels;
@@ -91,14 +102,19 @@ class ClusterSelector {
     const GpuBuffer& silhouettes;
     const GpuBuffer& prospects;
     bool all;  // its rows from the first on; else the open clusters
+    std::uint32_t capacity;
   };
   // Of up to kMostProbed boxes that are no clusters.
   struct Probe {
     GpuBuffer boxes, log_pixels, states, sight, silhouettes, prospects;
   };
 
+  static Looks compile_looks(const std::vector<ShaderDefine>& defines);
+  const Looks& looks() const { return eyes_open_ == 2 ? *looks_of_two_ : looks_of_one_; }
+  void close_eyes();
   void outline(const Tested& tested, std::uint32_t first, std::uint32_t count);
   void test(const Tested& tested, std::uint32_t count);
+  void test(const Tested& tested, std::uint32_t count, std::size_t eye);
   // Of all clusters, or of the first `count` open ones.
   void score(const View& view, std::uint32_t count, bool all);
   void rank(std::uint32_t budget);
@@ -106,14 +122,14 @@ class ClusterSelector {
 
   const ClusterTable* table_;
   Options options_;
-  DepthPyramid pyramid_;
-  const FeedbackTarget* drawn_ = nullptr;  // in this view; null: nothing yet
-  std::uint32_t open_ = 0;                 // clusters open after the last select(), and those added since
-  std::uint32_t added_ = 0;                // of them, since
-  bool selected_ = false;                  // in this view
-  Program outline_;
-  Program test_from_image_;
-  Program test_from_attachment_;
+  std::vector<Eye> eyes_;          // as many as any view had
+  std::size_t eyes_open_ = 1;      // of them, in this view
+  glm::vec3 to_second_eye_{0.0f};  // from the first, world units
+  std::uint32_t open_ = 0;         // clusters open after the last select(), and those added since
+  std::uint32_t added_ = 0;        // of them, since
+  bool selected_ = false;          // in this view
+  Looks looks_of_one_;
+  std::optional<Looks> looks_of_two_;  // once a view had two eyes
   Program score_;
   Program cut_;
   Program sums_;

@@ -5,17 +5,13 @@ namespace stipple {
 void Hybrid::start_view(const View& view) {
   view_ = view;
   selected_ = false;
-  selector_.start_view();
+  selector_.start_view(view);
   clusters_->start_view(view);
-}
-
-std::vector<DrawItem> Hybrid::warm_up(const View& view, const FeedbackTarget& frame) {
-  selector_.warm_up(view, frame);
-  return {};
 }
 
 Selection Hybrid::select(std::uint32_t budget) {
   Selection selection;
+  to_learn_ = false;
   if (budget == 0) return selection;
   clusters_->load(budget, selector_);
   const ClusterSelector::Result result = selector_.select(view_, budget);
@@ -35,9 +31,8 @@ Selection Hybrid::select(std::uint32_t budget) {
   return selection;
 }
 
-void Hybrid::frame_drawn(const FeedbackTarget& frame) {
-  if (to_learn_) selector_.learn(frame);
-  to_learn_ = false;
+void Hybrid::frame_drawn(const FeedbackTarget& frame, std::size_t eye) {
+  if (to_learn_) selector_.learn(frame, eye);
 }
 
 SelectionCounts Hybrid::counts() const {

@@ -24,10 +24,10 @@ class Hybrid final : public Method {
   void forget() override { selector_.forget(); }
   void start_view(const View&) override;
   bool selects_by_what_is_carried() const override { return true; }
-  void carry_drawn(const FeedbackTarget& frame) override { selector_.see(frame); }
-  std::vector<DrawItem> warm_up(const View&, const FeedbackTarget&) override;
+  void carry_drawn(const FeedbackTarget& frame, std::size_t eye) override { selector_.see(frame, eye); }
+  void warm_up(const View& view, const FeedbackTarget& frame) override { selector_.warm_up(view, frame); }
   Selection select(std::uint32_t budget) override;
-  void frame_drawn(const FeedbackTarget& frame) override;
+  void frame_drawn(const FeedbackTarget& frame, std::size_t eye) override;
   bool finished() const override { return selected_ && open_ == 0 && clusters_->finished(); }
   SelectionCounts counts() const override;
   std::optional<std::vector<ColoredPoints>> colored() const override { return clusters_->colored(); }

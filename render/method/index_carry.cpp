@@ -66,8 +66,8 @@ void IndexCarry::prepare(const FeedbackTarget& frame) {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
-void IndexCarry::append_items(std::vector<DrawItem>& items) const {
-  if (places_.bytes() == 0) return;
+void IndexCarry::append_items(const FeedbackTarget& frame, std::vector<DrawItem>& items) {
+  prepare(frame);
   for (std::size_t c = 0; c < cloud_.chunks().size(); ++c)
     items.push_back(CarriedIndices{&cloud_.chunks()[c].points, &cloud_.chunks()[c].ids, &places_, &commands_,
                                    static_cast<std::uint32_t>(c)});

@@ -21,14 +21,12 @@ class IndexCarry {
   IndexCarry(const IndexCarry&) = delete;
   IndexCarry& operator=(const IndexCarry&) = delete;
 
-  // Nothing is carried.
-  void forget() { places_ = {}; }
-  // What this finished frame shows is carried.
-  void prepare(const FeedbackTarget& frame);
-  // The items that draw it, one a chunk.
-  void append_items(std::vector<DrawItem>& items) const;
+  // The items that draw what this finished frame shows, one a chunk. Valid until the next call.
+  void append_items(const FeedbackTarget& frame, std::vector<DrawItem>& items);
 
  private:
+  void prepare(const FeedbackTarget& frame);
+
   const GpuCloud& cloud_;
   GpuBuffer own_slots_;
   const GpuBuffer& slot_of_;

@@ -12,7 +12,7 @@ namespace stipple {
 
 std::vector<LodSource::Part> MemoryLod::visible(const View& view) {
   std::vector<Part> parts;
-  for (const VisibleNode& visible : visible_nodes(octree_, frustum_of(view), view.eye)) {
+  for (const VisibleNode& visible : visible_nodes(octree_, frustum_of(view))) {
     const Node& node = octree_.nodes[visible.node];
     const double spacing = std::ldexp(octree_.cube.edge, -node.level - kLatticeLevels);
     for (std::uint32_t c = node.first_cluster; c < node.first_cluster + node.cluster_count; ++c) {

@@ -62,20 +62,22 @@ class Method {
   virtual void forget() {}
   // How large points are drawn from the next view on.
   virtual void set_point_size(const PointSize&) {}
-  // The view changed: every point may be worth drawing again.
+  // The view, of one eye or two, changed: every point may be worth drawing again. What follows chooses for both eyes.
   virtual void start_view(const View& view) = 0;
-  // Has each pass of its own run once, on the finished `frame` of `view`, whose block is bound, so that the driver's
-  // compiling stays outside of timed parts. Gives what is to be drawn for the same reason. forget() follows.
-  virtual std::vector<DrawItem> warm_up(const View&, const FeedbackTarget&) { return {}; }
+  // Has each pass of its own run once, on the finished `frame` of each eye of `view`, so that the driver's compiling
+  // stays outside of timed parts; the block of the first eye is bound. forget() follows.
+  virtual void warm_up(const View&, const FeedbackTarget&) {}
+  // Carry::indices: the items that draw what this finished frame, the last of an eye, shows. Valid until the next call.
+  virtual void append_carried(const FeedbackTarget&, std::vector<DrawItem>&) {}
   // Whether select() wants to know what is carried into a new view: then that is drawn first, and carry_drawn() called.
   virtual bool selects_by_what_is_carried() const { return false; }
-  // The frame shows what is carried; the view block is bound.
-  virtual void carry_drawn(const FeedbackTarget&) {}
-  // The next points for this view, at most `budget`. Valid until the next call. The view block is bound.
+  // The frame of this eye shows what is carried; the eye's block is bound.
+  virtual void carry_drawn(const FeedbackTarget&, std::size_t /*eye*/) {}
+  // The next points for this view, at most `budget`, for each of its eyes. Valid until the next call. The block of the
+  // first eye is bound.
   virtual Selection select(std::uint32_t budget) = 0;
-  // The frame with the selected points is drawn, or one of another method that this one goes on from; the view block is
-  // still bound.
-  virtual void frame_drawn(const FeedbackTarget&) {}
+  // The frame of this eye with the selected points is drawn; the eye's block is bound.
+  virtual void frame_drawn(const FeedbackTarget&, std::size_t /*eye*/) {}
   // Nothing is left for this view: the picture equals the brute-force picture, but for mode lod, which stops at the
   // budget.
   virtual bool finished() const = 0;

@@ -20,7 +20,8 @@ ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasteriz
     : method_(&method),
       rasterizer_(make_rasterizer(rasterizer, point_size.varies())),
       grid_(grid),
-      point_size_(point_size) {
+      point_size_(point_size),
+      eyes_(1) {
   const glm::dvec2 sizes = rasterizer_->point_sizes();
   if (!(point_size.pixels > 0.0 && point_size.pixels >= sizes.x && point_size.pixels <= sizes.y))
     throw UsageError(fmt::format("point size {}: rasterizer {} draws points of {} to {} pixels here", point_size.pixels,
@@ -38,7 +39,8 @@ ProgressiveRenderer::ProgressiveRenderer(Method& method, RasterizerKind rasteriz
 }
 
 void ProgressiveRenderer::resize(const glm::ivec2& size) {
-  for (auto& target : targets_) target.emplace(size, rasterizer_->depth_storage());
+  for (Eye& eye : eyes_)
+    for (auto& target : eye.targets) target.emplace(size, rasterizer_->depth_storage());
   blank_ = true;
   vertices_.reset();
   if (method_->carry() == Carry::vertices) make_carry(current());
@@ -58,44 +60,45 @@ void ProgressiveRenderer::use(Method& method) {
   method_ = &method;
   method_->set_point_size(point_size_);
   method_->forget();
-  if (!targets_[0]) return;
+  if (!frame()) return;
   vertices_.reset();
   if (method_->carry() == Carry::vertices) make_carry(current());
   if (view_.size == glm::ivec2(0)) return;
-  if (method_->carry() == Carry::indices) {
-    choose_carried(current());
-    method_->frame_drawn(current());
-  }
   view_drawn_ = false;
   method_->start_view(view_);
 }
 
-void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items) {
+void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items, std::size_t eye) {
   switch (method_->carry()) {
     case Carry::none:
       break;
     case Carry::grid:
       // Points of all sizes keep each other waiting where most pixels of the grid carry none
-      if (once_) return append_vertices(items);
-      items.push_back(CarriedGrid{&previous()});
+      if (once_) return append_vertices(items, eye);
+      items.push_back(CarriedGrid{&previous(eye)});
       break;
     case Carry::vertices:
-      append_vertices(items);
+      append_vertices(items, eye);
       break;
     case Carry::indices:
+      choose_carried(previous(eye));
+      method_->append_carried(previous(eye), items);
       break;
   }
 }
 
-void ProgressiveRenderer::append_vertices(std::vector<DrawItem>& items) {
-  if (!vertices_ || carry_room_ < pixels_of(previous())) make_carry(previous());
-  choose_carried(previous());
-  vertices_->prepare(previous());
+void ProgressiveRenderer::append_vertices(std::vector<DrawItem>& items, std::size_t eye) {
+  FeedbackTarget& last = previous(eye);
+  if (!vertices_ || carry_room_ < pixels_of(last)) make_carry(last);
+  choose_carried(last);
+  vertices_->prepare(last);
   items.push_back(vertices_->vertices());
 }
 
-void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
-  if (!targets_[0] || size != current().size()) resize(size);
+void ProgressiveRenderer::warm_up(const glm::ivec2& size, std::size_t eyes) {
+  const bool as_it_is = frame() && size == current().size() && eyes == eyes_.size();
+  eyes_.resize(eyes);
+  if (!as_it_is) resize(size);
   GpuBuffer point(sizeof(PackedPoint));
   const PackedPoint black{glm::ivec3(0), 0xFF000000u};
   point.write(0, &black, sizeof black);
@@ -104,14 +107,19 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
   const std::vector<DrawItem> items{PointRange{.points = &point, .count = 1},
                                     PickedPoints{.points = &point, .ids = &zero, .places = &zero, .count = 1}};
   // The point lies in front of the eye, so that no pass ends early
-  const View view{.eye = grid_.world_from_grid(glm::ivec3(0)) - glm::dvec3(0, 10, 0), .near = 1.0, .size = size};
-  uniforms_.set(make_view_block(view, grid_, point_size_));
+  const View view{.eye = grid_.world_from_grid(glm::ivec3(0)) - glm::dvec3(0, 10, 0),
+                  .near = 1.0,
+                  .size = size,
+                  .eyes_apart = eyes == 2 ? 1.0 : 0.0};
+  eyes_[0].block.set(make_view_block(view.of_eye(0), grid_, point_size_));
   rasterizer_->draw(previous(), items);
-  std::vector<DrawItem> carried = method_->warm_up(view, previous());
-  append_carry(carried);
+  method_->warm_up(view, previous());
+  std::vector<DrawItem> carried;
+  append_carry(carried, 0);
   rasterizer_->draw(current(), carried);
   if (method_->keeps_still_view()) rasterizer_->add(current(), items);
-  for (auto& target : targets_) target->clear();
+  for (Eye& eye : eyes_)
+    for (auto& target : eye.targets) target->clear();
   blank_ = true;
   coverage_.count(current().ids());
   method_->forget();
@@ -120,13 +128,15 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size) {
 }
 
 void ProgressiveRenderer::recolor(const ColorUpload& colors) {
-  if (!targets_[0]) return;
-  for (const auto& target : targets_) colors.paint(*target);
+  for (const Eye& eye : eyes_)
+    for (const auto& target : eye.targets)
+      if (target) colors.paint(*target);
 }
 
 FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   if (view != view_) {
-    if (!targets_[0]) resize(view.size);
+    if (!frame()) resize(view.size);
+    eyes_.resize(view.eyes());
     view_ = view;
     view_drawn_ = false;
     method_->start_view(view);
@@ -134,43 +144,60 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   // A view of nothing is finished before it begins, but the last view's picture must go
   if (view_drawn_ && method_->finished()) return {0, true};
 
-  uniforms_.set(make_view_block(view, grid_, point_size_));
-  kept_ = view_drawn_ && method_->keeps_still_view();
-  if (!kept_) {
-    current_ = 1 - current_;
-    if (current().size() != view.size) targets_[current_].emplace(view.size, rasterizer_->depth_storage());
-  }
+  begin_frame();
   const bool by_what_is_carried = !kept_ && !blank_ && method_->selects_by_what_is_carried();
-  if (by_what_is_carried) {
-    std::vector<DrawItem> carried;
-    append_carry(carried);
-    rasterizer_->draw(current(), carried);
-    method_->carry_drawn(current());
-  }
+  if (by_what_is_carried)
+    for (std::size_t eye = 0; eye < eyes_.size(); ++eye) draw_carried(eye);
+  eyes_[0].block.bind();
   Selection selection = method_->select(budget);
-  if (kept_ || by_what_is_carried) {
-    rasterizer_->add(current(), selection.items);
-  } else {
-    if (!blank_) append_carry(selection.items);
-    rasterizer_->draw(current(), selection.items);
-  }
-  if (method_->carry() == Carry::indices) choose_carried(current());
-  method_->frame_drawn(current());
+  for (std::size_t eye = 0; eye < eyes_.size(); ++eye) draw_selected(selection.items, kept_ || by_what_is_carried, eye);
   blank_ = false;
   view_drawn_ = true;
   return {selection.points, method_->finished()};
 }
 
-FrameData ProgressiveRenderer::read() {
-  return current().read(view_.near);
+void ProgressiveRenderer::begin_frame() {
+  kept_ = view_drawn_ && method_->keeps_still_view();
+  if (!kept_) current_ = 1 - current_;
+  for (std::size_t number = 0; number < eyes_.size(); ++number) {
+    Eye& eye = eyes_[number];
+    eye.block.set(make_view_block(view_.of_eye(number), grid_, point_size_));
+    auto& target = eye.targets[current_];
+    if (!target || target->size() != view_.size) target.emplace(view_.size, rasterizer_->depth_storage());
+  }
 }
 
-std::uint64_t ProgressiveRenderer::covered_pixels() {
-  return coverage_.count(current().ids());
+void ProgressiveRenderer::draw_carried(std::size_t eye) {
+  eyes_[eye].block.bind();
+  std::vector<DrawItem> carried;
+  append_carry(carried, eye);
+  rasterizer_->draw(current(eye), carried);
+  method_->carry_drawn(current(eye), eye);
 }
 
-std::uint64_t ProgressiveRenderer::points_reprojected() {
-  return kept_ || method_->carry() == Carry::none ? 0 : coverage_.count(previous().carried_ids());
+void ProgressiveRenderer::draw_selected(std::vector<DrawItem>& items, bool over_picture, std::size_t eye) {
+  eyes_[eye].block.bind();
+  if (over_picture) {
+    rasterizer_->add(current(eye), items);
+  } else {
+    const auto selected = static_cast<std::ptrdiff_t>(items.size());
+    if (!blank_) append_carry(items, eye);
+    rasterizer_->draw(current(eye), items);
+    items.erase(items.begin() + selected, items.end());
+  }
+  method_->frame_drawn(current(eye), eye);
+}
+
+FrameData ProgressiveRenderer::read(std::size_t eye) {
+  return current(eye).read(view_.near);
+}
+
+std::uint64_t ProgressiveRenderer::covered_pixels(std::size_t eye) {
+  return coverage_.count(current(eye).ids());
+}
+
+std::uint64_t ProgressiveRenderer::points_reprojected(std::size_t eye) {
+  return kept_ || method_->carry() == Carry::none ? 0 : coverage_.count(previous(eye).carried_ids());
 }
 
 }  // namespace stipple

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "octree/cloud/grid.h"
 #include "render/frame/carry_once.h"
@@ -22,15 +23,17 @@ struct FrameReport {
   bool converged = false;  // the picture equals the brute-force picture of this view
 };
 
+// A view of two eyes has one selection: what it streams is drawn into the frame of each (T16), and each eye carries
+// its own.
 class ProgressiveRenderer {
  public:
   // `method` must outlive the renderer. Throws UsageError for a point size that the rasterizer does not draw
   // (Rasterizer::point_sizes).
   ProgressiveRenderer(Method& method, RasterizerKind rasterizer, const Grid& grid, const PointSize& point_size = {});
 
-  // Makes targets of this size and has every pass run once on a single point, so that the driver's compiling and
-  // allocating stay outside of timed parts. The next frame starts from nothing. Waits for the GPU.
-  void warm_up(const glm::ivec2& size);
+  // Makes targets of this size for each eye and has every pass run once on a single point, so that the driver's
+  // compiling and allocating stay outside of timed parts. The next frame starts from nothing. Waits for the GPU.
+  void warm_up(const glm::ivec2& size, std::size_t eyes = 1);
 
   // Goes on with `method`, which must outlive the renderer, from the picture that is there: the next frame carries it
   // as the new method does. The methods must draw the same points, with the same ids.
@@ -40,43 +43,61 @@ class ProgressiveRenderer {
   void recolor(const ColorUpload& colors);
 
   // Draws the next frame: the last one, of whatever size, reprojected into `view` or, where the view is the same and
-  // the method likes it, as it stands; and at most `budget` more points. A converged, still view costs nothing.
-  // Commands are issued, not awaited.
+  // the method likes it, as it stands; and at most `budget` more points. A second eye begins with what the first saw. A
+  // converged, still view costs nothing. Commands are issued, not awaited.
   FrameReport draw(const View& view, std::uint32_t budget);
 
-  // The last frame, on the GPU; null before the first. Valid until the next draw().
-  const FeedbackTarget* frame() const { return targets_[current_] ? &*targets_[current_] : nullptr; }
+  // The last frame of this eye, on the GPU; null before the first, and where the last view had fewer eyes. Valid until
+  // the next draw().
+  const FeedbackTarget* frame(std::size_t eye = 0) const {
+    if (eye >= eyes_.size()) return nullptr;
+    const auto& target = eyes_[eye].targets[current_];
+    return target ? &*target : nullptr;
+  }
 
   // The last frame. Both wait for the GPU and belong outside of timed parts.
-  FrameData read();
-  std::uint64_t covered_pixels();
+  FrameData read(std::size_t eye = 0);
+  std::uint64_t covered_pixels(std::size_t eye = 0);
 
   // Points of the frame before the last that were drawn again in the last: one for each of its pixels where points
   // cover no more than one; else one for each point, and a few twice. 0 where the last stood, and for methods that
   // carry nothing. Waits for the GPU.
-  std::uint64_t points_reprojected();
+  std::uint64_t points_reprojected(std::size_t eye = 0);
 
  private:
+  struct Eye {
+    ViewUniforms block;
+    std::array<std::optional<FeedbackTarget>, 2> targets;
+  };
+
   void resize(const glm::ivec2& size);
   // With room for this frame.
   void make_carry(const FeedbackTarget& frame);
   // Called for a finished frame before it is carried.
   void choose_carried(FeedbackTarget& frame);
-  void append_carry(std::vector<DrawItem>& items);
-  void append_vertices(std::vector<DrawItem>& items);
-  FeedbackTarget& current() { return *targets_[current_]; }
-  FeedbackTarget& previous() { return *targets_[1 - current_]; }
+  void append_carry(std::vector<DrawItem>& items, std::size_t eye);
+  void append_vertices(std::vector<DrawItem>& items, std::size_t eye);
+  // The next targets, and each eye's block.
+  void begin_frame();
+  // What is carried, and no more.
+  void draw_carried(std::size_t eye);
+  // What is selected, over what is carried already or with that. Leaves `items` as they are.
+  void draw_selected(std::vector<DrawItem>& items, bool over_picture, std::size_t eye);
+  FeedbackTarget& current(std::size_t eye = 0) { return *eyes_[eye].targets[current_]; }
+  FeedbackTarget& previous(std::size_t eye = 0) {
+    auto& own = eyes_[eye].targets[1 - current_];
+    return own ? *own : *eyes_[0].targets[1 - current_];
+  }
 
   Method* method_;
   std::unique_ptr<Rasterizer> rasterizer_;
   Grid grid_;
   PointSize point_size_;
-  ViewUniforms uniforms_;
   std::optional<CarryOnce> once_;  // where points may cover several pixels
   CoverageCounter coverage_;
-  std::array<std::optional<FeedbackTarget>, 2> targets_;
-  std::optional<VertexCarry> vertices_;
-  int carry_room_ = 0;  // pixels
+  std::vector<Eye> eyes_;                // as many as the last view had
+  std::optional<VertexCarry> vertices_;  // one eye's after the other's
+  int carry_room_ = 0;                   // pixels
   std::size_t current_ = 0;
   View view_;                // of size 0: none
   bool blank_ = true;        // no frame was drawn yet

@@ -33,15 +33,6 @@ Unstructured::Unstructured(const PointSet& points, std::uint64_t seed, Carry car
   if (carry == Carry::indices && points.size() > 0) indices_.emplace(cloud_, slots_of(points, seed));
 }
 
-std::vector<DrawItem> Unstructured::warm_up(const View&, const FeedbackTarget& frame) {
-  std::vector<DrawItem> items;
-  if (indices_) {
-    indices_->prepare(frame);
-    indices_->append_items(items);
-  }
-  return items;
-}
-
 Selection SlotRound::next(const GpuCloud& cloud, std::size_t slots, std::uint32_t budget) {
   const std::size_t count = std::min<std::size_t>(budget, left);
   const std::size_t before_end = std::min(count, slots - cursor);
@@ -51,12 +42,6 @@ Selection SlotRound::next(const GpuCloud& cloud, std::size_t slots, std::uint32_
   selection.points = count;
   if (slots > 0) cursor = (cursor + count) % slots;
   left -= count;
-  return selection;
-}
-
-Selection Unstructured::select(std::uint32_t budget) {
-  Selection selection = round_.next(cloud_, cloud_.size(), budget);
-  if (indices_) indices_->append_items(selection.items);
   return selection;
 }
 

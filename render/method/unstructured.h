@@ -28,16 +28,12 @@ class Unstructured final : public Method {
   Unstructured(const PointSet& points, std::uint64_t seed, Carry carry);
 
   Carry carry() const override { return indices_ ? Carry::indices : Carry::vertices; }
-  void forget() override {
-    if (indices_) indices_->forget();
-  }
   // The next stretch begins where the last ended, also for a new view.
   void start_view(const View&) override { round_.left = cloud_.size(); }
-  std::vector<DrawItem> warm_up(const View&, const FeedbackTarget&) override;
-  Selection select(std::uint32_t budget) override;
-  void frame_drawn(const FeedbackTarget& frame) override {
-    if (indices_) indices_->prepare(frame);
+  void append_carried(const FeedbackTarget& last, std::vector<DrawItem>& items) override {
+    if (indices_) indices_->append_items(last, items);
   }
+  Selection select(std::uint32_t budget) override { return round_.next(cloud_, cloud_.size(), budget); }
   bool finished() const override { return round_.left == 0; }
   std::optional<std::vector<ColoredPoints>> colored() const override { return colored_points(cloud_); }
 

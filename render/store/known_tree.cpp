@@ -53,7 +53,7 @@ const NodeDetails* KnownTree::details(std::uint32_t index) const {
 std::optional<double> KnownTree::distance_if_seen(const Frustum& frustum, std::uint32_t index) const {
   const WorldBox box = generous_cell(store_->info(), nodes_[index].stored);
   if (!may_see(frustum, box)) return std::nullopt;
-  return nearest_distance(frustum.eye, box);
+  return nearest_distance(frustum, box);
 }
 
 KnownTree::InSight KnownTree::look(const Frustum& frustum, std::vector<std::uint32_t> roots) const {

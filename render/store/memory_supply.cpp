@@ -10,7 +10,7 @@ namespace stipple {
 std::vector<VisibleCluster> MemorySupply::visible(const View& view) {
   requested_.clear();
   const Frustum frustum = frustum_of(view);
-  const std::vector<VisibleNode> nodes = stipple::visible_nodes(octree_, frustum, view.eye);
+  const std::vector<VisibleNode> nodes = stipple::visible_nodes(octree_, frustum);
   visible_nodes_ = nodes.size();
   std::vector<VisibleCluster> clusters;
   for (const VisibleNode& visible : nodes) {

@@ -9,7 +9,7 @@
 namespace stipple {
 namespace {
 
-std::string text_of(const glm::dvec3& v) {
+std::string corner_text(const glm::dvec3& v) {
   return fmt::format("({}, {}, {})", v.x, v.y, v.z);
 }
 
@@ -71,8 +71,8 @@ std::optional<std::string> check_cell(const TreeInfo& info, const StoredNode& no
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     const glm::dvec3 p(points.positions[i]);
     if (glm::all(glm::lessThanEqual(min, p)) && glm::all(glm::lessThanEqual(p, max))) continue;
-    return fmt::format("its point {} at {} is outside its cell, {} to {}", i, text_of(grid.world_from_grid(p)),
-                       text_of(cell.min), text_of(cell.max));
+    return fmt::format("its point {} at {} is outside its cell, {} to {}", i, corner_text(grid.world_from_grid(p)),
+                       corner_text(cell.min), corner_text(cell.max));
   }
   return std::nullopt;
 }

@@ -160,7 +160,7 @@ class Bucket {
   std::unordered_map<PointHash, Occurrences, HashOfHash> points_;
 };
 
-std::string text_of(const Occurrences& point, const Grid& grid) {
+std::string words_for(const Occurrences& point, const Grid& grid) {
   const glm::dvec3 world = grid.world_from_grid(point.position);
   std::string text = fmt::format("({}, {}, {})", world.x, world.y, world.z);
   for (const Column& column : point.values) {
@@ -173,7 +173,7 @@ std::string text_of(const Occurrences& point, const Grid& grid) {
 
 Defect describe(const Occurrences& point, const TreeSource& tree,
                 std::span<const std::unique_ptr<PointSource>> inputs) {
-  const std::string text = text_of(point, tree.info().grid);
+  const std::string text = words_for(point, tree.info().grid);
   if (point.in_tree == 0)
     return {"", fmt::format("point {} of {} is not in the tree as often as in the inputs (0 and {}): {}", point.id,
                             inputs[point.source - 1]->info().path, point.in_inputs, text)};

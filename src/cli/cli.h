@@ -31,7 +31,9 @@ void warn(std::string_view message);
 // Each takes the option's name ("--size") and its text, and throws UsageError naming option, text and what was
 // expected.
 
-// "1280x720": width and height in pixels, 1 to 16384 each.
+// Of a picture, in pixels: what OpenGL drivers of today allow for a target.
+inline constexpr int kLargestPictureSide = 16384;
+// "1280x720": width and height in pixels, 1 to kLargestPictureSide each.
 glm::ivec2 parse_size(std::string_view option, std::string_view text);
 // "1.5,-2,3e4": three finite numbers.
 glm::dvec3 parse_vector(std::string_view option, std::string_view text);

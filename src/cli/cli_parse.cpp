@@ -10,7 +10,6 @@
 namespace stipple {
 namespace {
 
-constexpr int kMaxSide = 16384;                             // pixels; what OpenGL drivers of today allow for a target
 constexpr std::uint64_t kMaxCount = 1'000'000'000'000'000;  // whole numbers up to here are exact as doubles
 
 UsageError bad_value(std::string_view option, std::string_view text, std::string_view expected) {
@@ -55,10 +54,12 @@ glm::ivec2 parse_size(std::string_view option, std::string_view text) {
   if (x != std::string_view::npos) {
     const auto width = number<int>(text.substr(0, x));
     const auto height = number<int>(text.substr(x + 1));
-    if (width && height && *width >= 1 && *width <= kMaxSide && *height >= 1 && *height <= kMaxSide)
+    if (width && height && *width >= 1 && *width <= kLargestPictureSide && *height >= 1 &&
+        *height <= kLargestPictureSide)
       return {*width, *height};
   }
-  throw bad_value(option, text, fmt::format("WIDTHxHEIGHT in pixels, 1 to {} each, such as 1280x720", kMaxSide));
+  throw bad_value(option, text,
+                  fmt::format("WIDTHxHEIGHT in pixels, 1 to {} each, such as 1280x720", kLargestPictureSide));
 }
 
 glm::dvec3 parse_vector(std::string_view option, std::string_view text) {

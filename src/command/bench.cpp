@@ -28,7 +28,7 @@
 namespace stipple {
 namespace {
 
-struct Options {
+struct BenchArguments {
   std::string input;
   std::vector<std::string> parts{"reading", "building", "processing", "drawing", "quality"};
   std::string points = "20M";
@@ -60,7 +60,7 @@ class TemporaryScene {
   std::filesystem::path path_;
 };
 
-BenchSettings settings_of(const Options& options) {
+BenchSettings settings_of(const BenchArguments& options) {
   BenchSettings settings;
   settings.size = parse_size("--size", options.size);
   settings.budget =
@@ -100,7 +100,7 @@ void print_quality(const QualityRow& row) {
   std::fflush(stdout);
 }
 
-Json json_of(const BenchComparison& comparison) {
+Json as_json(const BenchComparison& comparison) {
   Json moved = Json::array();
   for (const Move& move : comparison.moved)
     moved.push_back({{"part", move.part}, {"old_ms", move.old_ms}, {"new_ms", move.new_ms}, {"ratio", move.ratio()}});
@@ -128,7 +128,7 @@ void print_comparison(const BenchComparison& comparison, const std::string& path
   for (const std::string& difference : comparison.differences) warn(fmt::format("{}: {}", path, difference));
 }
 
-void run(const Options& options) {
+void run(const BenchArguments& options) {
   const BenchSettings settings = settings_of(options);
   const std::uint64_t points = parse_count("--points", options.points);
   std::optional<Json> old;
@@ -173,7 +173,7 @@ void run(const Options& options) {
   document["parts"] = parts;
   std::optional<BenchComparison> comparison;
   if (old) comparison = compare_benches(*old, document, options.compare);
-  if (comparison) document["comparison"] = json_of(*comparison);
+  if (comparison) document["comparison"] = as_json(*comparison);
   if (options.json) return print_json(document);
   if (comparison) print_comparison(*comparison, options.compare);
 }
@@ -181,7 +181,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchArguments>();
   CLI::App* command = app.add_subcommand("bench", "Time the parts of the program one by one.");
   CLI::Option* input =
       command->add_option("INPUT", options->input, "Point cloud to work on. Default: a generated city.");

@@ -20,7 +20,7 @@
 namespace stipple {
 namespace {
 
-struct Options {
+struct BuildArguments {
   std::vector<std::string> inputs;
   std::string output;
   std::string memory = "4G";
@@ -32,7 +32,7 @@ struct Options {
   bool json = false;
 };
 
-StreamOptions stream_options(const Options& options) {
+StreamOptions stream_options(const BuildArguments& options) {
   StreamOptions stream;
   stream.memory = parse_bytes("--memory", options.memory, kLeastMemory);
   stream.threads = options.threads;
@@ -51,7 +51,7 @@ StreamOptions stream_options(const Options& options) {
   return stream;
 }
 
-void print_as_json(const Options& options, const BuildReport& report, double seconds) {
+void print_as_json(const BuildArguments& options, const BuildReport& report, double seconds) {
   Json phases = Json::object();
   for (const PhaseTime& phase : report.phases) phases[std::string(name_of(phase.phase))] = phase.seconds;
   const double rate = seconds > 0.0 ? static_cast<double>(report.points) / seconds : 0.0;
@@ -76,7 +76,7 @@ void print_as_json(const Options& options, const BuildReport& report, double sec
   fmt::print("{}\n", document.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-void print_as_text(const Options& options, const BuildReport& report, double seconds) {
+void print_as_text(const BuildArguments& options, const BuildReport& report, double seconds) {
   fmt::print("{}: {} points in {} nodes on {} levels, {} bytes written, in {:.2f} s ({:.1f} M points/s)\n",
              options.output, with_thousands(report.points), with_thousands(report.nodes), report.depth + 1,
              with_thousands(report.bytes_written), seconds, static_cast<double>(report.points) / seconds * 1e-6);
@@ -84,7 +84,7 @@ void print_as_text(const Options& options, const BuildReport& report, double sec
     fmt::print("{} bytes of them were set aside on the disk while building.\n", with_thousands(report.bytes_spilled));
 }
 
-void run(const Options& options) {
+void run(const BuildArguments& options) {
   const StreamOptions stream = stream_options(options);
   const auto start = std::chrono::steady_clock::now();
   const auto sources = open_inputs(options.inputs);
@@ -109,7 +109,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_build_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BuildArguments>();
   CLI::App* command =
       app.add_subcommand("build", "Build an octree on disk (Potree 2.0) from point clouds of any size.");
   command->add_option("INPUT", options->inputs, "Point cloud files, octrees, or folders of files.")->required();

@@ -21,7 +21,7 @@
 namespace stipple {
 namespace {
 
-struct Options {
+struct CheckArguments {
   std::string tree;
   std::vector<std::string> against;
   bool json = false;
@@ -34,7 +34,7 @@ struct Outcome {
   const std::optional<Defect>& defect() const { return tree.defect || !against ? tree.defect : against->defect; }
 };
 
-Json json_of(const LevelReport& level) {
+Json as_json(const LevelReport& level) {
   return {{"nodes", level.nodes},
           {"inner_nodes", level.inner_nodes},
           {"points", level.points},
@@ -42,7 +42,7 @@ Json json_of(const LevelReport& level) {
           {"closest_pair", json_of_any(level.closest_pair)}};
 }
 
-Json json_of(const Comparison& comparison) {
+Json as_json(const Comparison& comparison) {
   return {{"points", comparison.input_points},
           {"largest_rounding", comparison.largest_rounding},
           {"compared", comparison.compared},
@@ -50,23 +50,23 @@ Json json_of(const Comparison& comparison) {
           {"in_inputs_only", comparison.in_inputs_only}};
 }
 
-Json json_of(const std::optional<Defect>& defect) {
+Json as_json(const std::optional<Defect>& defect) {
   if (!defect) return nullptr;
   return {{"node", defect->node.empty() ? Json(nullptr) : Json(defect->node)}, {"what", defect->what}};
 }
 
 void print_as_json(const TreeInfo& info, const Outcome& outcome) {
   Json levels = Json::array();
-  for (const LevelReport& level : outcome.tree.levels) levels.push_back(json_of(level));
+  for (const LevelReport& level : outcome.tree.levels) levels.push_back(as_json(level));
   print_json({{"path", info.source.path},
               {"ok", !outcome.defect()},
-              {"defect", json_of(outcome.defect())},
+              {"defect", as_json(outcome.defect())},
               {"points", outcome.tree.points},
               {"nodes", outcome.tree.nodes},
               {"bytes", outcome.tree.point_bytes},
               {"minimal_distance", info.minimal_distance ? Json(*info.minimal_distance) : Json(nullptr)},
               {"levels", levels},
-              {"against", outcome.against ? json_of(*outcome.against) : Json(nullptr)}});
+              {"against", outcome.against ? as_json(*outcome.against) : Json(nullptr)}});
 }
 
 // "0.70 of the spacing", "-" where there is no pair in an inner node.
@@ -108,7 +108,7 @@ Outcome check(const std::shared_ptr<const TreeStore>& store, const std::vector<s
   return outcome;
 }
 
-void run(const Options& options) {
+void run(const CheckArguments& options) {
   const std::shared_ptr<const TreeStore> store = open_tree(options.tree);
   const Outcome outcome = check(store, options.against);
   if (options.json)
@@ -123,7 +123,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_check_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "Read an octree whole and hold it to what it says.");
   command->add_option("OCTREE", options->tree, "Folder of the octree, or its metadata.json.")->required();
   command->add_option(

@@ -17,7 +17,7 @@
 namespace stipple {
 namespace {
 
-struct Options {
+struct CompareArguments {
   std::string test;
   std::string reference;
   bool json = false;
@@ -39,7 +39,7 @@ Difference difference_of(const Image& a, const Image& b) {
   return out;
 }
 
-void run(const Options& options) {
+void run(const CompareArguments& options) {
   const Image test = read_png(options.test);
   const Image reference = read_png(options.reference);
   if (test.size != reference.size)
@@ -75,7 +75,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand("compare", "Measure how far one picture is from another.");
   command->add_option("TEST", options->test, "PNG file to be judged.")->required();
   command->add_option("REFERENCE", options->reference, "PNG file of the same size to judge it by.")->required();

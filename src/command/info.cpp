@@ -17,7 +17,7 @@
 namespace stipple {
 namespace {
 
-struct Options {
+struct InfoArguments {
   std::vector<std::string> inputs;
   bool exact = false;
   bool json = false;
@@ -124,7 +124,7 @@ Json tree_json(const TreeInfo& info, const Nodes& nodes) {
           {"levels", json_levels}};
 }
 
-std::string text_of(const glm::dvec3& v) {
+std::string triple_of(const glm::dvec3& v) {
   return fmt::format("{}  {}  {}", v.x, v.y, v.z);
 }
 
@@ -143,13 +143,13 @@ void print_as_text(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
   if (bytes) print_line("file size", fmt::format("{} bytes", with_thousands(*bytes)));
   if (const auto each = bytes_per_point(bytes, info.point_count))
     print_line("", fmt::format("{:.2f} bytes a point, all included", *each));
-  print_line("grid scale", text_of(info.grid.scale));
-  print_line("grid offset", text_of(info.grid.offset));
+  print_line("grid scale", triple_of(info.grid.scale));
+  print_line("grid offset", triple_of(info.grid.offset));
   if (info.stated_bounds.empty()) {
     print_line("stated bounds", "none");
   } else {
-    print_line("stated min", text_of(info.stated_bounds.min));
-    print_line("stated max", text_of(info.stated_bounds.max));
+    print_line("stated min", triple_of(info.stated_bounds.min));
+    print_line("stated max", triple_of(info.stated_bounds.max));
   }
   std::string_view label = "attributes";
   for (const Attribute& attribute : info.schema) {
@@ -163,7 +163,7 @@ void print_as_text(const SourceInfo& info, std::optional<std::uint64_t> bytes) {
 void print_as_text(const TreeInfo& info, const Nodes& nodes) {
   const std::vector<Level>& levels = nodes.levels;
   print_line("nodes", with_thousands(nodes.count));
-  print_line("cube min", text_of(info.cube.min));
+  print_line("cube min", triple_of(info.cube.min));
   print_line("cube edge", fmt::format("{}", info.cube.edge));
   if (info.spacing > 0.0)
     print_line("spacing", fmt::format("{} in the root, half of it with every level", info.spacing));
@@ -178,7 +178,7 @@ void print_as_text(const TreeInfo& info, const Nodes& nodes) {
                                                        with_thousands(levels[i].points)));
 }
 
-void run_on_tree(const Options& options) {
+void run_on_tree(const InfoArguments& options) {
   const auto store = open_tree(options.inputs.front());
   TreeInfo info = store->info();
   for (const std::string& warning : info.source.warnings) warn(fmt::format("{}: {}", info.source.path, warning));
@@ -199,7 +199,7 @@ void run_on_tree(const Options& options) {
   print_json(document);
 }
 
-void run_on_file(const Options& options) {
+void run_on_file(const InfoArguments& options) {
   const auto source = open_source(options.inputs);
   const SourceInfo& info = source->info();
   for (const std::string& warning : info.warnings) warn(fmt::format("{}: {}", info.path, warning));
@@ -212,7 +212,7 @@ void run_on_file(const Options& options) {
 }  // namespace
 
 void add_info_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoArguments>();
   CLI::App* command = app.add_subcommand("info", "Say what a point cloud file or an octree holds.");
   command
       ->add_option("INPUT", options->inputs,

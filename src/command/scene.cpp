@@ -14,7 +14,7 @@
 namespace stipple {
 namespace {
 
-struct Options {
+struct SceneArguments {
   std::string name;
   std::string output;
   std::string points = "10M";
@@ -22,7 +22,7 @@ struct Options {
   bool json = false;
 };
 
-void run(const Options& options) {
+void run(const SceneArguments& options) {
   const auto scene = make_scene(options.name, parse_count("--points", options.points), options.seed);
   const auto start = std::chrono::steady_clock::now();
   write_las(*scene, options.output);
@@ -54,7 +54,7 @@ std::string scenes_and_example() {
 }  // namespace
 
 void add_scene_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SceneArguments>();
   CLI::App* command = app.add_subcommand("scene", "Write a generated test scene as a LAS file.");
   command->add_option("NAME", options->name, "Scene, one of those below.")->required();
   command->add_option("-o,--output", options->output, "LAS file to write; an older one is replaced.")->required();

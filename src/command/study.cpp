@@ -17,7 +17,7 @@
 namespace stipple {
 namespace {
 
-struct Options {
+struct StudyArguments {
   std::vector<std::string> inputs;
   std::string output;
   std::vector<std::string> modes;
@@ -85,7 +85,7 @@ std::vector<Mode> modes_of(const std::vector<std::string>& names) {
   return modes;
 }
 
-StudySettings settings_of(const Options& options) {
+StudySettings settings_of(const StudyArguments& options) {
   StudySettings settings;
   settings.inputs = options.inputs;
   settings.folder = options.output;
@@ -175,7 +175,7 @@ void print_tables(const Json& summaries) {
   if (paths > 0) print_moving(summaries);
 }
 
-void run(const Options& options) {
+void run(const StudyArguments& options) {
   const StudySettings settings = settings_of(options);
   const HeadlessContext context;
   const InterruptOnSignal on_signal;
@@ -200,7 +200,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_study_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StudyArguments>();
   CLI::App* command = app.add_subcommand("study", "Compare methods: quality against points drawn and against time.");
   command->add_option("INPUT", options->inputs, "Point clouds, each studied by itself; a folder of files is one.")
       ->required();

@@ -21,7 +21,7 @@ namespace {
 constexpr double kShareOfMemory = 0.8;
 constexpr const char* kFramesPerSecond = "30";
 
-struct Options {
+struct ViewArguments {
   std::vector<std::string> inputs;
   std::string mode;
   std::string camera;
@@ -34,7 +34,7 @@ struct Options {
   EyeDomeFlags eye_dome;
 };
 
-ViewerOptions viewer_options(const Options& options) {
+ViewerOptions viewer_options(const ViewArguments& options) {
   ViewerOptions viewer;
   viewer.inputs = options.inputs;
   viewer.color = color_choice_of(options.draw.color, options.color);
@@ -89,7 +89,7 @@ void keep_settings(const Viewer& viewer) {
   }
 }
 
-void run(const Options& options, const CLI::App& command) {
+void run(const ViewArguments& options, const CLI::App& command) {
   ViewerOptions settings = viewer_options(options);
   const glm::ivec2 size = parse_size("--size", options.draw.size);
   for (const std::string& input : options.inputs)
@@ -105,7 +105,7 @@ void run(const Options& options, const CLI::App& command) {
 }  // namespace
 
 void add_view_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ViewArguments>();
   CLI::App* command = app.add_subcommand("view", "Look at a point cloud in a window.");
   command->add_option("INPUT", options->inputs,
                       "Point clouds to open: files, folders of files, octrees; together one cloud. Without any, drop "

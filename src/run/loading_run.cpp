@@ -6,19 +6,19 @@ namespace stipple {
 
 LoadingDrawing::LoadingDrawing(BackgroundLoad& load, Mode mode, const MethodOptions& method, RasterizerKind raster,
                                const Grid& grid, const PointSize& point_size, const BudgetPolicy& policy,
-                               const glm::ivec2& size)
+                               const View& view)
     : load_(&load),
       loading_(load, mode, {.method = method}),
       renderer_(loading_.method(), raster, grid, point_size),
-      drawing_(renderer_, policy, size) {}
+      drawing_(renderer_, policy, view.size, view.eyes()) {}
 
 LoadingDrawing::LoadingDrawing(PointArrivals& replayed, Mode mode, const MethodOptions& method, RasterizerKind raster,
                                const Grid& grid, const PointSize& point_size, const BudgetPolicy& policy,
-                               const glm::ivec2& size)
+                               const View& view)
     : load_(nullptr),
       loading_(replayed, mode, {.method = method, .most_arrivals = policy.points, .cut_at_once = true}),
       renderer_(loading_.method(), raster, grid, point_size),
-      drawing_(renderer_, policy, size) {}
+      drawing_(renderer_, policy, view.size, view.eyes()) {}
 
 void LoadingDrawing::wait() {
   using Clock = std::chrono::steady_clock;

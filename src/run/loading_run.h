@@ -15,10 +15,10 @@ class LoadingDrawing {
   // Every pass of the method has run once when this is made; with the first frame `load` begins to read. All must
   // outlive it.
   LoadingDrawing(BackgroundLoad& load, Mode mode, const MethodOptions& method, RasterizerKind raster, const Grid& grid,
-                 const PointSize& point_size, const BudgetPolicy& policy, const glm::ivec2& size);
+                 const PointSize& point_size, const BudgetPolicy& policy, const View& view);
   // The points come from memory, in each frame as many as its budget, which is fixed.
   LoadingDrawing(PointArrivals& replayed, Mode mode, const MethodOptions& method, RasterizerKind raster,
-                 const Grid& grid, const PointSize& point_size, const BudgetPolicy& policy, const glm::ivec2& size);
+                 const Grid& grid, const PointSize& point_size, const BudgetPolicy& policy, const View& view);
 
   // Waits where nothing has come that a frame could show. Converged: all points are there in their final colours, too.
   // Throws what reading throws.

@@ -22,11 +22,12 @@ std::uint32_t largest_budget(const BudgetPolicy& policy) {
   return policy.frames_per_second ? BudgetController::Limits{}.most : policy.points;
 }
 
-TimedDrawing::TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& policy, const glm::ivec2& size)
+TimedDrawing::TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& policy, const glm::ivec2& size,
+                           std::size_t eyes)
     : renderer_(renderer), policy_(policy) {
   if (policy.frames_per_second)
     controller_.emplace(1000.0 / *policy.frames_per_second, kFirstBudget, BudgetController::Limits{});
-  renderer.warm_up(size);
+  renderer.warm_up(size, eyes);
 }
 
 const FrameState& TimedDrawing::draw(const View& view, const std::function<void()>& before) {
@@ -42,10 +43,22 @@ const FrameState& TimedDrawing::draw(const View& view, const std::function<void(
 
   state_.milliseconds += ms;
   state_.points_drawn += report.points_filled;
-  state_.points_reprojected += renderer_.points_reprojected();
-  state_.covered_pixels = renderer_.covered_pixels();
+  count_eyes(view.eyes());
   state_.converged = report.converged;
   return state_;
+}
+
+void TimedDrawing::count_eyes(std::size_t eyes) {
+  state_.eyes.resize(eyes);
+  state_.covered_pixels = 0;
+  for (std::size_t i = 0; i < eyes; ++i) {
+    EyeState& eye = state_.eyes[i];
+    const std::uint64_t reprojected = renderer_.points_reprojected(i);
+    eye.points_reprojected += reprojected;
+    eye.covered_pixels = renderer_.covered_pixels(i);
+    state_.points_reprojected += reprojected;
+    state_.covered_pixels += eye.covered_pixels;
+  }
 }
 
 FrameState draw_until(TimedDrawing& drawing, const View& view, const Until& until,
@@ -59,7 +72,7 @@ FrameState draw_until(TimedDrawing& drawing, const View& view, const Until& unti
 
 FrameState run_view(ProgressiveRenderer& renderer, const View& view, const BudgetPolicy& policy, const Until& until,
                     const std::function<void(const FrameState&)>& observe) {
-  TimedDrawing drawing(renderer, policy, view.size);
+  TimedDrawing drawing(renderer, policy, view.size, view.eyes());
   return draw_until(drawing, view, until, observe);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "render/frame/budget.h"
 #include "render/frame/frame_data.h"
@@ -23,23 +24,33 @@ struct BudgetPolicy {
   std::optional<double> frames_per_second;
 };
 
+// Of one of the eyes.
+struct EyeState {
+  std::uint64_t points_reprojected = 0;  // carried points drawn again
+  std::uint64_t covered_pixels = 0;
+};
+
 // The state after a frame. Sums run from the first frame; time is that of drawing alone, each frame awaited.
 struct FrameState {
   std::uint64_t frame = 0;  // 1 for the first
   double milliseconds = 0.0;
-  std::uint64_t points_drawn = 0;        // by fill
-  std::uint64_t points_reprojected = 0;  // carried points drawn again
-  std::uint64_t covered_pixels = 0;
+  std::uint64_t points_drawn = 0;        // by fill, once where there are two eyes
+  std::uint64_t points_reprojected = 0;  // carried points drawn again, by all eyes
+  std::uint64_t covered_pixels = 0;      // of all eyes
+  std::vector<EyeState> eyes{};
   std::uint32_t budget = 0;  // of this frame
   bool converged = false;
   std::optional<std::uint64_t> points_loaded{};  // of a cloud that is being read
+
+  // P = V (R + S) of T16: the points drawn in all views together.
+  std::uint64_t points_in_views() const { return eyes.size() * points_drawn + points_reprojected; }
 };
 
 // A renderer that draws whatever view comes next, each frame timed.
 class TimedDrawing {
  public:
-  // `renderer` must outlive this. It is warmed up for frames of `size` first, outside the clock.
-  TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& policy, const glm::ivec2& size);
+  // `renderer` must outlive this. It is warmed up for frames of `size` first, one for each eye, outside the clock.
+  TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& policy, const glm::ivec2& size, std::size_t eyes = 1);
 
   // `before`, where there is one, goes before the frame and is timed with it.
   const FrameState& draw(const View& view, const std::function<void()>& before = {});
@@ -49,6 +60,8 @@ class TimedDrawing {
   void start_again() { state_ = {}; }
 
  private:
+  void count_eyes(std::size_t eyes);
+
   ProgressiveRenderer& renderer_;
   BudgetPolicy policy_;
   std::optional<BudgetController> controller_;

@@ -43,13 +43,13 @@ std::vector<CurvePoint> draw_while_loading(const StudySettings& settings, const 
   if (settings.clock == StudyClock::points) {
     ReplayedArrivals replayed(dataset);
     LoadingDrawing drawing(replayed, mode, settings.method, settings.raster, grid, settings.point_size, settings.budget,
-                           settings.size);
+                           view);
     return judged_frames(drawing, settings, grid, progress, view, truth, keeper);
   }
   const auto source = open_source(input);
   BackgroundLoad load(*source, {dataset.colors.attribute, dataset.colors.ramp, dataset.colors.hidden});
   LoadingDrawing drawing(load, mode, settings.method, settings.raster, grid, settings.point_size, settings.budget,
-                         settings.size);
+                         view);
   return judged_frames(drawing, settings, grid, progress, view, truth, keeper);
 }
 

@@ -10,7 +10,7 @@
 namespace stipple {
 namespace {
 
-std::string text_of(const glm::dvec3& v) {
+std::string argument_of(const glm::dvec3& v) {
   return fmt::format("{},{},{}", v.x, v.y, v.z);
 }
 
@@ -36,10 +36,11 @@ std::string text_of(const RenderCommand& command) {
   std::string line = "stipple render";
   for (const std::string& input : command.inputs) line += fmt::format(" {}", quoted(input));
   line += fmt::format(" -o view.png --mode {} --raster {} --size {}x{} --eye={} --target={} --up={} --fov {}",
-                      command.mode, command.raster, command.size.x, command.size.y, text_of(command.camera.eye),
-                      text_of(command.camera.target), text_of(command.camera.up), command.camera.fov_deg);
+                      command.mode, command.raster, command.size.x, command.size.y, argument_of(command.camera.eye),
+                      argument_of(command.camera.target), argument_of(command.camera.up), command.camera.fov_deg);
   line += fmt::format(" --color {} --point-size {} --background {:06x}", quoted(command.colors.attribute),
                       command.point_size.pixels, command.background);
+  if (command.eyes_apart > 0.0) line += fmt::format(" --stereo --eyes-apart {}", command.eyes_apart);
   if (command.point_size.world > 0.0) line += fmt::format(" --splat-size {}", command.point_size.world);
   if (command.colors.ramp != Ramp::viridis) line += fmt::format(" --ramp {}", name_of(command.colors.ramp));
   if (command.colors.hidden.any()) line += fmt::format(" --hide-class {}", stipple::text_of(command.colors.hidden));

@@ -18,7 +18,8 @@ struct RenderCommand {
   std::string mode;
   std::string raster;
   Camera camera;
-  glm::ivec2 size{0};
+  glm::ivec2 size{0};       // for each eye
+  double eyes_apart = 0.0;  // 0: there is one
   ColorMap colors;
   PointSize point_size;
   std::uint32_t background = 0;

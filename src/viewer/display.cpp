@@ -30,10 +30,23 @@ const Program& Display::program(bool split, bool packed) {
 }
 
 void Display::draw(const Scene& scene, const glm::ivec2& size, bool upside_down) {
+  if (!scene.two_eyes) return draw(scene, size, 0, upside_down);
+  const std::array<const FeedbackTarget*, 2> frames{scene.left, scene.right};
+  const std::array<int, 3> columns{0, size.x / 2, size.x};
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    Scene half = scene;
+    half.left = frames[eye];
+    half.right = nullptr;
+    half.wires[0] = scene.wires[eye];
+    draw(half, {columns[eye + 1] - columns[eye], size.y}, columns[eye], upside_down);
+  }
+}
+
+void Display::draw(const Scene& scene, const glm::ivec2& size, int first_column, bool upside_down) {
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
-  glViewport(0, 0, size.x, size.y);
+  glViewport(first_column, 0, size.x, size.y);
   std::array<const Texture2D*, 2> packed = scene.packed;
   if (scene.eye_dome && !packed[0]) {
     packed[0] = &eye_domes_[0].shade(*scene.left, *scene.eye_dome);
@@ -53,12 +66,14 @@ void Display::draw(const Scene& scene, const glm::ivec2& size, bool upside_down)
   glUniform3f(0, background.x, background.y, background.z);
   glUniform2i(1, size.x, size.y);
   glUniform1i(2, upside_down);
+  glUniform1i(4, first_column);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
   glBindVertexArray(no_vertices_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   const int border = scene.right ? scene.divider : size.x;
-  wire_painter_.draw(scene.wires[0], *scene.left, scene.near, size, {0, border}, upside_down);
-  if (scene.right) wire_painter_.draw(scene.wires[1], *scene.right, scene.near, size, {border, size.x}, upside_down);
+  wire_painter_.draw(scene.wires[0], *scene.left, scene.near, size, {0, border}, first_column, upside_down);
+  if (scene.right)
+    wire_painter_.draw(scene.wires[1], *scene.right, scene.near, size, {border, size.x}, first_column, upside_down);
 }
 
 void Display::show(const Scene& scene, const glm::ivec2& window_size) {
@@ -76,7 +91,7 @@ void Display::clear(std::uint32_t background, const glm::ivec2& window_size) {
 }
 
 Image Display::picture(const Scene& scene) {
-  const glm::ivec2 size = scene.left->size();
+  const glm::ivec2 size = scene.left->size() * glm::ivec2(scene.two_eyes ? 2 : 1, 1);
   const Texture2D colors(GL_RGBA8, size);
   const std::array<const Texture2D*, 1> attachments{&colors};
   const Framebuffer framebuffer(attachments, nullptr);

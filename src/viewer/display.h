@@ -19,6 +19,7 @@ class Display {
     const FeedbackTarget* left = nullptr;
     const FeedbackTarget* right = nullptr;     // null: one frame alone
     int divider = 0;                           // column of the picture at which the right frame begins
+    bool two_eyes = false;                     // both frames are seen whole, each in its half; there is no divider
     std::uint32_t background = 0x808080;       // RRGGBB
     std::optional<EyeDomeOptions> eye_dome{};  // none: colours as they are
     // In place of the frames' colours: R32UI as PackedPoint::rgba, 0 where no point is. Both or none.
@@ -34,11 +35,13 @@ class Display {
   void show(const Scene& scene, const glm::ivec2& window_size);
   // Fills the window with a colour.
   void clear(std::uint32_t background, const glm::ivec2& window_size);
-  // The scene as show() shows it in a window of the left frame's size. Waits for the GPU.
+  // The scene as show() shows it in a window of the left frame's size, or of both eyes'. Waits for the GPU.
   Image picture(const Scene& scene);
 
  private:
   void draw(const Scene& scene, const glm::ivec2& size, bool upside_down);
+  // From this column of the framebuffer on; not of two eyes.
+  void draw(const Scene& scene, const glm::ivec2& size, int first_column, bool upside_down);
   // Compiled when first used.
   const Program& program(bool split, bool packed);
 

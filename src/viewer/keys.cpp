@@ -33,6 +33,7 @@ constexpr auto kTable = std::to_array<KeyEntry>({
     {"F6", "method subsample", Command::method_subsample, GLFW_KEY_F6},
     {"V", "two methods side by side, one camera", Command::split, 0, false, 'v'},
     {"B", "of two methods the left one, the right one, both", Command::blink, 0, false, 'b'},
+    {"Y", "two eyes side by side, for stereo displays", Command::two_eyes, 0, false, 'y'},
     {"G", "difference to the reference, the reference, the picture", Command::compare, 0, false, 'g'},
     {"N", "draw this view anew, from nothing", Command::again, 0, false, 'n'},
     {"F", "keep these points and no others, to look at them from outside", Command::freeze, 0, false, 'f'},

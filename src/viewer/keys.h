@@ -17,6 +17,7 @@ enum class Command {
   method_subsample,
   split,
   blink,
+  two_eyes,
   compare,
   again,
   freeze,

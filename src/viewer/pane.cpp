@@ -16,9 +16,9 @@ std::unique_ptr<ProgressiveRenderer> Pane::make_renderer(Method& method, const G
   return std::make_unique<ProgressiveRenderer>(method, rasterizer_, grid, point_size);
 }
 
-const FeedbackTarget* Pane::frame() const {
-  if (frozen_ && frozen_->renderer->frame()) return frozen_->renderer->frame();
-  return renderer_ ? renderer_->frame() : nullptr;
+const FeedbackTarget* Pane::frame(std::size_t eye) const {
+  if (frozen_ && frozen_->renderer->frame()) return frozen_->renderer->frame(eye);
+  return renderer_ ? renderer_->frame(eye) : nullptr;
 }
 
 void Pane::show(Content next, bool other_points) {

@@ -51,8 +51,8 @@ class Pane {
   // Nothing more would be drawn for this view.
   bool at_rest(const View& view) const { return !renderer_ || (view == drawn_view_ && report_.converged); }
 
-  // Null before the first.
-  const FeedbackTarget* frame() const;
+  // Null before the first, and where the last view had fewer eyes.
+  const FeedbackTarget* frame(std::size_t eye = 0) const;
   bool empty() const { return !renderer_; }
   const Content& content() const { return content_; }
   std::optional<Mode> mode() const { return content_.mode; }

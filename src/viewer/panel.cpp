@@ -117,6 +117,8 @@ void show_methods(const PanelFacts& facts, PanelWishes& wishes) {
   }
   bool split = stage.is_split();
   if (ImGui::Checkbox("two side by side", &split)) wishes.commands.push_back(Command::split);
+  bool two_eyes = facts.two_eyes;
+  if (ImGui::Checkbox("two eyes", &two_eyes)) wishes.commands.push_back(Command::two_eyes);
 }
 
 void show_pace(const PanelFacts& facts, PanelWishes& wishes) {

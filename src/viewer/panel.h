@@ -42,6 +42,7 @@ struct PanelFacts {
   std::uint32_t background = 0;
   bool shaded = false;
   EyeDomeOptions eye_dome;
+  bool two_eyes = false;
   std::optional<int> divider;  // column of the picture, where two sides are seen
   bool right_alone = false;    // of two sides
   const ReferenceComparison& comparison;

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "src/cli/cli.h"
 #include "src/run/build_estimate.h"
 
 namespace stipple {
 namespace {
-
-constexpr int kLargestSide = 16'384;  // as --size takes it
 
 void show_progress(const TreeJob& job, PanelWishes& wishes) {
   const TreeJob::Status status = job.status();
@@ -41,7 +40,7 @@ void show_pictures(const PanelFacts& facts, PanelWishes& wishes) {
   ImGui::TextDisabled("picture, when nothing is left to draw");
   for (const int times : {1, 2, 4}) {
     const glm::ivec2 size = times * window;
-    if (std::max(size.x, size.y) > kLargestSide) break;
+    if (std::max(size.x, size.y) > kLargestPictureSide) break;
     if (times > 1) ImGui::SameLine();
     if (ImGui::Button(fmt::format("{} x {}", size.x, size.y).c_str())) wishes.picture = size;
   }

@@ -10,20 +10,24 @@ namespace {
 
 constexpr ImU32 kPickColor = IM_COL32(255, 210, 60, 255);
 
-// Crosses at the picks, and a line between them.
-void mark_picks(const PanelFacts& facts) {
+// Crosses at the picks, and a line between them, as an eye sees them.
+void mark_picks(const PanelFacts& facts, std::size_t eye) {
+  const View view = facts.view.of_eye(eye);
+  const double eyes = static_cast<double>(facts.view.eyes());
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImGuiIO& io = ImGui::GetIO();
   std::vector<ImVec2> places;
   char letter = 'A';
   for (const Pick& pick : facts.picks) {
-    const glm::dvec3 r = pick.world - facts.view.eye;
-    const double depth = glm::dot(facts.view.forward, r);
+    const glm::dvec3 r = pick.world - view.eye;
+    const double depth = glm::dot(view.forward, r);
     const char name[2] = {letter++, 0};
-    if (depth <= facts.view.near) continue;
-    const double x = 0.5 * (1.0 + glm::dot(facts.view.right, r) * facts.view.cot_x / depth);
-    const double y = 0.5 * (1.0 - glm::dot(facts.view.up, r) * facts.view.cot_y / depth);
-    const ImVec2 at{static_cast<float>(x) * io.DisplaySize.x, static_cast<float>(y) * io.DisplaySize.y};
+    if (depth <= view.near) continue;
+    const double x = 0.5 * (1.0 + glm::dot(view.right, r) * view.cot_x / depth);
+    const double y = 0.5 * (1.0 - glm::dot(view.up, r) * view.cot_y / depth);
+    if (eyes > 1.0 && (x < 0.0 || x > 1.0)) continue;  // in the other's picture
+    const ImVec2 at{static_cast<float>((static_cast<double>(eye) + x) / eyes) * io.DisplaySize.x,
+                    static_cast<float>(y) * io.DisplaySize.y};
     const float arm = 7.0f * facts.scale;
     list.AddLine({at.x - arm, at.y}, {at.x + arm, at.y}, kPickColor, 2.0f);
     list.AddLine({at.x, at.y - arm}, {at.x, at.y + arm}, kPickColor, 2.0f);
@@ -90,7 +94,7 @@ void show_hint(const PanelFacts& facts) {
 }  // namespace
 
 void show_overlays(const PanelFacts& facts, PanelWishes& wishes) {
-  mark_picks(facts);
+  for (std::size_t eye = 0; eye < facts.view.eyes(); ++eye) mark_picks(facts, eye);
   show_divider(facts);
   show_hint(facts);
   if (facts.keys_shown) show_keys(facts, wishes);

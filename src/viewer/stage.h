@@ -54,8 +54,8 @@ class Stage {
   bool is_split() const { return split_; }
   const Pane& pane(Side side = left) const { return panes_[side]; }
   Mode wanted(Side side = left) const { return wanted_[side]; }
-  // Null before the first.
-  const FeedbackTarget* frame(Side side = left) const { return panes_[side].frame(); }
+  // Null before the first, and where the last view had fewer eyes.
+  const FeedbackTarget* frame(Side side = left, std::size_t eye = 0) const { return panes_[side].frame(eye); }
   bool empty() const { return panes_[left].empty(); }
   // Nothing more would be drawn for this view before something is delivered.
   bool at_rest(const View& view) const;

@@ -77,13 +77,14 @@ class Viewer {
   const Rig& rig() const { return rig_; }
   const std::vector<Pick>& picks() const { return picks_; }
   const std::optional<std::array<std::string, 3>>& under_cursor() const { return under_cursor_; }
-  View view() const { return rig_.view(size_); }
+  View view() const { return view_of(size_); }
   const TreeJob& tree_job() const { return tree_job_; }
   const std::string& built_tree() const { return built_tree_; }
   // Nothing moves, is loaded or left to draw.
   bool at_rest() const;
   // Pixels of the window that a pixel of the picture is wide and high while the camera moves.
   int resolution() const { return resolution_.divisor(); }
+  bool shows_two_eyes() const { return two_eyes_; }
   // At which the right side begins.
   int divider_column() const { return divider_column(size_.x); }
   std::uint64_t frames_shown() const { return frames_shown_; }
@@ -112,6 +113,7 @@ class Viewer {
   void blink();
   void compare();
   void freeze();
+  void look_with_two_eyes();
   bool shows_both() const;
   void follow(const Gesture& gesture);
   void fly();
@@ -144,11 +146,20 @@ class Viewer {
   void notice_motion();
   bool moving() const;
   void learn_from(double ms, bool was_moving);
-  glm::ivec2 frame_pixel(const glm::dvec2& place) const;
+  // Of the window's size, what one eye has.
+  glm::ivec2 eye_size() const { return eye_size(size_); }
+  glm::ivec2 eye_size(const glm::ivec2& size) const;
+  // In whose picture the place is.
+  std::size_t eye_at(const glm::dvec2& place) const;
+  // Where in its picture.
+  glm::dvec2 place_of_eye(const glm::dvec2& place, std::size_t eye) const;
+  void ask(PixelReader& reader, const glm::dvec2& place) const;
   void show_panels();
   void grant(const PanelWishes& wishes);
   void set_policy(const BudgetPolicy& policy);
   std::optional<EyeDomeOptions> shading() const;
+  // Of a picture of this size; of two eyes each has half of it.
+  View view_of(const glm::ivec2& size) const;
   // What is to be drawn: the window's view, or that of a screenshot of another size.
   View wanted_view() const;
   // Of a picture so many pixels wide.
@@ -171,6 +182,8 @@ class Viewer {
   bool drags_divider_ = false;
   bool right_meant_ = false;  // by the key being looked at
   enum class Shown { both, left, right } shown_sides_ = Shown::both;
+  bool two_eyes_ = false;        // and then there is one side
+  std::size_t pressed_eye_ = 0;  // in whose picture the last button was pressed
 
   glm::ivec2 size_{1};    // of the last frame
   bool entered_ = false;  // the open cloud
@@ -180,7 +193,7 @@ class Viewer {
   double home_aspect_ = 1.0;
 
   bool boxes_shown_ = false;
-  std::array<std::vector<WireEnd>, 2> wires_;  // of the sides, as they are shown
+  std::array<std::vector<WireEnd>, 2> wires_;  // of the sides, or eyes, as they are shown
   std::array<std::size_t, 4> box_counts_{};    // of the left side, by state
   View frozen_view_;                           // when the stage was frozen
   double frozen_reach_ = 1.0;                  // how far its pyramid is drawn, world units

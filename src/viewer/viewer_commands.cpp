@@ -42,9 +42,12 @@ void Viewer::execute(Command command) {
       return stage_.want(Mode::subsample, right_meant_ ? Stage::right : Stage::left);
     case Command::split:
       shown_sides_ = Shown::both;
+      two_eyes_ = false;
       return stage_.split(!stage_.is_split());
     case Command::blink:
       return blink();
+    case Command::two_eyes:
+      return look_with_two_eyes();
     case Command::compare:
       return compare();
     case Command::again:
@@ -120,8 +123,14 @@ void Viewer::blink() {
   shown_sides_ = shown_sides_ == Shown::both ? Shown::left : shown_sides_ == Shown::left ? Shown::right : Shown::both;
 }
 
+void Viewer::look_with_two_eyes() {
+  two_eyes_ = !two_eyes_;
+  if (two_eyes_) stage_.split(false);
+}
+
 void Viewer::compare() {
   comparison_.turn();
+  if (comparison_.on() && two_eyes_) note_ = "the reference is that of one eye: Y shows its picture";
   const Dataset* dataset = stage_.dataset();
   if (comparison_.on() && dataset && !dataset->in_memory())
     note_ = "the reference needs all points in memory: F1 reads them";

@@ -37,7 +37,8 @@ void Viewer::take_event(const InputEvent& event) {
       break;
     case Kind::scroll:
       if (gui_.takes_mouse()) break;
-      rig_.zoom(event.amount.y, event.place, size_, hovered_ ? std::optional(world_of(*hovered_)) : std::nullopt);
+      rig_.zoom(event.amount.y, place_of_eye(event.place, eye_at(event.place)), eye_size(),
+                hovered_ ? std::optional(world_of(*hovered_)) : std::nullopt);
       break;
     case Kind::key:
     case Kind::character:
@@ -69,25 +70,28 @@ void Viewer::press(const InputEvent& event) {
   pointer_.press(button_of(event.code),
                  {.shift = (event.modifiers & GLFW_MOD_SHIFT) != 0, .alt = (event.modifiers & GLFW_MOD_ALT) != 0},
                  event.place, event.seconds);
+  pressed_eye_ = eye_at(event.place);
   grabbed_ = hovered_ ? std::optional(world_of(*hovered_)) : std::nullopt;
 }
 
 void Viewer::follow(const Gesture& gesture) {
+  const glm::dvec2 from = place_of_eye(gesture.from, pressed_eye_);
+  const glm::dvec2 to = place_of_eye(gesture.to, pressed_eye_);
   switch (gesture.kind) {
     case Gesture::Kind::orbit:
-      rig_.orbit(gesture.from, gesture.to, size_);
+      rig_.orbit(from, to, eye_size());
       break;
     case Gesture::Kind::pan:
-      rig_.pan(gesture.from, gesture.to, size_, grabbed_);
+      rig_.pan(from, to, eye_size(), grabbed_);
       break;
     case Gesture::Kind::turn:
-      rig_.turn(gesture.from, gesture.to, size_);
+      rig_.turn(from, to, eye_size());
       break;
     case Gesture::Kind::click:
     case Gesture::Kind::double_click:
       if (!stage_.frame()) break;
       clicked_for_pivot_ = gesture.kind == Gesture::Kind::double_click;
-      clicked_.ask(*stage_.frame(), frame_pixel(gesture.from));
+      ask(clicked_, gesture.from);
       break;
   }
 }
@@ -110,12 +114,12 @@ void Viewer::fly() {
 }
 
 void Viewer::face(double yaw_deg, double pitch_deg) {
-  rig_.face(glm::radians(yaw_deg), glm::radians(pitch_deg), static_cast<double>(size_.x) / size_.y);
+  rig_.face(glm::radians(yaw_deg), glm::radians(pitch_deg), static_cast<double>(eye_size().x) / eye_size().y);
 }
 
 void Viewer::go_home() {
   if (!home_) return;
-  const double aspect = static_cast<double>(size_.x) / size_.y;
+  const double aspect = static_cast<double>(eye_size().x) / eye_size().y;
   const Pose pose = pose_of(*home_);
   rig_.face(pose.yaw, pose.pitch, aspect);
   if (std::abs(aspect - home_aspect_) < 0.01 * aspect) rig_.place(*home_);
@@ -123,8 +127,23 @@ void Viewer::go_home() {
 
 // --- What the cursor is at
 
-glm::ivec2 Viewer::frame_pixel(const glm::dvec2& place) const {
-  return glm::ivec2(place * glm::dvec2(stage_.frame()->size()) / glm::dvec2(size_));
+glm::ivec2 Viewer::eye_size(const glm::ivec2& size) const {
+  return {two_eyes_ ? std::max(size.x / 2, 1) : size.x, size.y};
+}
+
+std::size_t Viewer::eye_at(const glm::dvec2& place) const {
+  return two_eyes_ && place.x >= eye_size().x ? 1 : 0;
+}
+
+glm::dvec2 Viewer::place_of_eye(const glm::dvec2& place, std::size_t eye) const {
+  return {place.x - static_cast<double>(eye) * eye_size().x, place.y};
+}
+
+void Viewer::ask(PixelReader& reader, const glm::dvec2& place) const {
+  const std::size_t eye = eye_at(place);
+  const FeedbackTarget* const frame = stage_.frame(Stage::left, eye);
+  if (!frame) return;
+  reader.ask(*frame, glm::ivec2(place_of_eye(place, eye) * glm::dvec2(frame->size()) / glm::dvec2(eye_size())));
 }
 
 glm::dvec3 Viewer::world_of(const PickedPixel& pixel) const {
@@ -157,7 +176,7 @@ void Viewer::read_answers() {
 void Viewer::ask_under_cursor() {
   if (!hover_stale_ || hover_.waiting() || !stage_.frame() || pointer_.holds()) return;
   hover_stale_ = false;
-  hover_.ask(*stage_.frame(), frame_pixel(cursor_));
+  ask(hover_, cursor_);
 }
 
 void Viewer::pick(const PickedPixel& pixel) {

@@ -50,15 +50,16 @@ void Viewer::set_policy(const BudgetPolicy& policy) {
 
 void Viewer::draw_cloud() {
   const View fine = wanted_view();
-  const bool coarse = moving() && controller_ && resolution_.divisor() > 1 && fine.size == size_;
-  const View next = coarse ? rig_.view(glm::max(size_ / resolution_.divisor(), 1)) : fine;
+  const bool of_window = fine == view();
+  const bool coarse = moving() && controller_ && resolution_.divisor() > 1 && of_window;
+  const View next = coarse ? view_of(glm::max(size_ / resolution_.divisor(), 1)) : fine;
   if (stage_.at_rest(next)) return;
   if (std::exchange(drawn_view_, next) != next) comparison_.begin_view(window_.seconds());
   try {
     stage_.draw(next, budget());
   } catch (const Error& e) {
     // A picture for which there is no room is no reason to end
-    if (fine.size == size_ || options_.exit_after_screenshot) throw;
+    if (of_window || options_.exit_after_screenshot) throw;
     screenshot_.clear();
     options_.screenshot_size.reset();
     note_ = e.what();
@@ -71,7 +72,7 @@ void Viewer::draw_cloud() {
 // What is to be compared with the reference; none: there is nothing, or not all points are in memory.
 std::optional<ReferencePainter::Subject> Viewer::compared() const {
   const std::shared_ptr<const Dataset>& dataset = stage_.pane().content().dataset;
-  if (!comparison_.on() || !dataset || !dataset->in_memory()) return std::nullopt;
+  if (!comparison_.on() || two_eyes_ || !dataset || !dataset->in_memory()) return std::nullopt;
   return ReferencePainter::Subject{dataset, wanted_view(), options_.point_size};
 }
 
@@ -97,20 +98,21 @@ void Viewer::compare_frames() {
 void Viewer::lay_wires() {
   wires_ = {};
   box_counts_ = {};
-  for (const Stage::Side side : {Stage::left, Stage::right}) {
+  for (const std::size_t place : {0u, 1u}) {
+    const Stage::Side side = place == 1 && !two_eyes_ ? Stage::right : Stage::left;
     if (!stage_.frame(side) || (side == Stage::right && !stage_.is_split())) continue;
+    const View next = wanted_view().of_eye(two_eyes_ ? place : 0);
     if (boxes_shown_) {
       const std::vector<SightedBox> boxes = stage_.pane(side).boxes();
-      if (side == Stage::left)
+      if (place == 0)
         for (const SightedBox& box : boxes) ++box_counts_[static_cast<std::size_t>(box.state)];
-      const View next = wanted_view();
       // The eye that the boxes were found from says which are the nearest
       const glm::dvec3 eye = stage_.pane(side).frozen() ? frozen_view_.eye : next.eye;
-      wires_[side] = wires_of(boxes, stage_.grid(), eye, next);
+      wires_[place] = wires_of(boxes, stage_.grid(), eye, next);
     }
     if (!stage_.pane(side).frozen()) continue;
-    const std::vector<WireEnd> camera = wires_of(frozen_view_, frozen_reach_, wanted_view());
-    wires_[side].insert(wires_[side].end(), camera.begin(), camera.end());
+    const std::vector<WireEnd> camera = wires_of(frozen_view_, frozen_reach_, next);
+    wires_[place].insert(wires_[place].end(), camera.begin(), camera.end());
   }
 }
 
@@ -172,6 +174,7 @@ void Viewer::show_panels() {
                                          .background = options_.background,
                                          .shaded = options_.shaded,
                                          .eye_dome = options_.eye_dome,
+                                         .two_eyes = two_eyes_,
                                          .divider = shows_both() ? std::optional(divider_column()) : std::nullopt,
                                          .right_alone = shown_sides_ == Shown::right,
                                          .comparison = comparison_,

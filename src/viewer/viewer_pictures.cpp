@@ -26,13 +26,22 @@ std::optional<EyeDomeOptions> Viewer::shading() const {
   return options_.shaded ? std::optional(options_.eye_dome) : std::nullopt;
 }
 
+View Viewer::view_of(const glm::ivec2& size) const {
+  View view = rig_.view(eye_size(size));
+  if (two_eyes_) view.eyes_apart = kUsualEyesApart * glm::distance(rig_.camera().eye, rig_.pivot());
+  return view;
+}
+
 View Viewer::wanted_view() const {
-  return !screenshot_.empty() && options_.screenshot_size ? rig_.view(*options_.screenshot_size) : view();
+  return !screenshot_.empty() && options_.screenshot_size ? view_of(*options_.screenshot_size) : view();
 }
 
 Display::Scene Viewer::scene(int width) const {
   Display::Scene scene{.left = stage_.frame(), .background = options_.background, .eye_dome = shading()};
-  if (shows_both()) {
+  if (two_eyes_) {
+    scene.right = stage_.frame(Stage::left, 1);
+    scene.two_eyes = scene.right != nullptr;
+  } else if (shows_both()) {
     scene.right = stage_.frame(Stage::right);
     scene.divider = divider_column(width);
   } else if (stage_.is_split() && shown_sides_ == Shown::right && stage_.frame(Stage::right)) {
@@ -40,7 +49,7 @@ Display::Scene Viewer::scene(int width) const {
   }
   scene.near = view().near;
   scene.wires = {wires_[Stage::left], wires_[Stage::right]};
-  if (scene.left == stage_.frame(Stage::right)) scene.wires[0] = wires_[Stage::right];
+  if (!two_eyes_ && scene.left == stage_.frame(Stage::right)) scene.wires[0] = wires_[Stage::right];
   if (!differences_[Stage::left]) return scene;
   scene.packed = {differences_[Stage::left], differences_[Stage::right]};
   if (scene.left == stage_.frame(Stage::right)) scene.packed[0] = differences_[Stage::right];
@@ -99,6 +108,7 @@ void Viewer::write_screenshot(const std::string& path) {
   facts.update(dataset_provenance(*stage_.dataset()));
   facts.update(color_provenance(stage_.dataset()->colors));
   facts["view"] = view_provenance(wanted_view());
+  facts["eyes_apart"] = wanted_view().eyes_apart;
   facts.update(program_provenance());
   write_png(path, options_.with_panels ? window_picture() : picture(), {{"stipple", text_of(facts)}});
 }
@@ -110,7 +120,8 @@ void Viewer::copy_command() {
                                               .mode = std::string(name_of(*stage_.pane().mode())),
                                               .raster = std::string(name_of(options_.rasterizer)),
                                               .camera = rig_.camera(),
-                                              .size = size_,
+                                              .size = eye_size(),
+                                              .eyes_apart = view().eyes_apart,
                                               .colors = dataset->colors,
                                               .point_size = options_.point_size,
                                               .background = options_.background,

@@ -69,7 +69,7 @@ WirePainter::WirePainter() {
 }
 
 void WirePainter::draw(std::span<const WireEnd> wires, const FeedbackTarget& frame, double near, const glm::ivec2& size,
-                       const glm::ivec2& columns, bool upside_down) {
+                       const glm::ivec2& columns, int first_column, bool upside_down) {
   if (wires.empty()) return;
   const bool image = frame.depth_storage() == DepthStorage::image;
   std::optional<Program>& program = image ? from_image_ : from_attachment_;
@@ -86,6 +86,7 @@ void WirePainter::draw(std::span<const WireEnd> wires, const FeedbackTarget& fra
   glUniform2i(2, size.x, size.y);
   glUniform2i(3, columns.x, columns.y);
   glUniform1i(4, upside_down);
+  glUniform1i(5, first_column);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glBindVertexArray(no_vertices_.name());

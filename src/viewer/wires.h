@@ -37,9 +37,10 @@ std::vector<WireEnd> wires_of(const View& seen, double depth, const View& view);
 class WirePainter {
  public:
   WirePainter();
-  // Over the framebuffer that is bound, in columns [first, end) of a picture of this size, which shows `frame`.
+  // Over the framebuffer that is bound, in columns [first, end) of a picture of this size, which shows `frame` from
+  // `first_column` of the framebuffer on.
   void draw(std::span<const WireEnd> wires, const FeedbackTarget& frame, double near, const glm::ivec2& size,
-            const glm::ivec2& columns, bool upside_down);
+            const glm::ivec2& columns, int first_column, bool upside_down);
 
  private:
   std::optional<Program> from_image_;

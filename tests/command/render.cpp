@@ -241,6 +241,72 @@ TEST_F(RenderCommand, PositionsAndDepthsAgreeWithEachOtherAndTheCamera) {
   EXPECT_EQ(stats.at("covered_pixels"), covered);
 }
 
+// The left half of the picture, or the right one.
+Image half_of(const Image& both, int half) {
+  Image one{{both.size.x / 2, both.size.y}, {}};
+  const int row = 3 * one.size.x;
+  for (int y = 0; y < one.size.y; ++y) {
+    const auto begin = both.rgb.begin() + (2 * y + half) * row;
+    one.rgb.insert(one.rgb.end(), begin, begin + row);
+  }
+  return one;
+}
+
+TEST_F(RenderCommand, StereoIsTheTwoEyesSideBySide) {
+  const Image both = picture("both.png", "--stereo --eyes-apart 40 --mode hybrid --budget 3k --stats " +
+                                             path("s.json") + " --depth-out " + path("d.npy"));
+  ASSERT_EQ(both.size, glm::ivec2(320, 90));
+  EXPECT_TRUE(contains(read_npy(path("d.npy")).header, "'shape': (90, 320,)"));
+  const Json stats = json_file(path("s.json"));
+  EXPECT_EQ(stats.at("views"), 2);
+  const Json& stereo = stats.at("stereo");
+  EXPECT_EQ(stereo.at("eyes_apart"), 40.0);
+  const auto of_both = [&](const char* key) {
+    return stereo.at("left").at(key).get<std::uint64_t>() + stereo.at("right").at(key).get<std::uint64_t>();
+  };
+  EXPECT_EQ(stats.at("points_reprojected"), of_both("points_reprojected"));
+  EXPECT_EQ(stats.at("covered_pixels"), of_both("covered_pixels"));
+  EXPECT_EQ(stats.at("points_in_views"),
+            2 * stats.at("points_drawn").get<std::uint64_t>() + of_both("points_reprojected"));
+  // Each as if it were alone
+  const Json& view = stats.at("view");
+  const glm::dvec3 left = vector_of(stereo.at("left").at("eye"));
+  const glm::dvec3 right = vector_of(stereo.at("right").at("eye"));
+  EXPECT_NEAR(glm::dot(right - left, vector_of(view.at("right"))), 40.0, 1e-6);
+  Json camera{{"up", view.at("up")}, {"fov_deg", view.at("fov_deg")}};
+  for (int half = 0; half < 2; ++half) {
+    camera["eye"] = stereo.at(half == 0 ? "left" : "right").at("eye");
+    for (int axis = 0; axis < 3; ++axis)
+      camera["target"][axis] = camera["eye"][axis].get<double>() + 100.0 * view.at("forward")[axis].get<double>();
+    const Image alone = picture("one.png", "--mode brute-force --camera " + write("eye.json", camera.dump()));
+    EXPECT_GT(psnr_db(mean_squared_error(half_of(both, half), alone)), 50.0) << half;
+    EXPECT_LT(psnr_db(mean_squared_error(half_of(both, 1 - half), alone)), 30.0) << half;
+  }
+}
+
+TEST_F(RenderCommand, StereoIsTheSamePictureInEveryMode) {
+  const std::string stereo = "--stereo --eye 565300,5934150,12 --target 565310,5934300,14 --stats " + path("s.json ");
+  const Image all = picture("all.png", stereo + "--mode brute-force");
+  EXPECT_EQ(json_file(path("s.json")).at("points_in_views"), 2 * kPoints);
+  EXPECT_NEAR(json_file(path("s.json")).at("stereo").at("eyes_apart").get<double>(), std::hypot(10, 150, 2) / 30, 1e-9);
+  EXPECT_GT(psnr_db(mean_squared_error(all, picture("reference.png", stereo + "--mode reference"))), 35.0);
+  for (const std::string mode : {"hierarchical", "unstructured --carry index", "hybrid", "hybrid --while-loading"})
+    EXPECT_EQ(picture("drawn.png", stereo + "--budget 3k --mode " + mode).rgb, all.rgb) << mode;
+  const Image shaded = picture("edl.png", stereo + "--edl");
+  EXPECT_EQ(shaded.size, all.size);
+  EXPECT_NE(shaded.rgb, all.rgb);
+  picture("mono.png", "--stats " + path("s.json"));
+  EXPECT_EQ(json_file(path("s.json")).at("views"), 1);
+  EXPECT_TRUE(json_file(path("s.json")).at("stereo").is_null());
+}
+
+TEST_F(RenderCommand, TwoPicturesWiderThanOneMayBeAreWrongUsage) {
+  const Outcome outcome =
+      run_stipple(folder_, "render " + city_ + " -o " + path("out.png") + " --stereo --size 8193x8");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(contains(outcome.err, "--stereo")) << outcome.err;
+}
+
 TEST_F(RenderCommand, BackgroundAndPointSizeAreSeen) {
   const Image small = picture("a.png", "--background 010203");
   const Image large = picture("b.png", "--background 010203 --point-size 3");
@@ -283,6 +349,9 @@ TEST_F(RenderCommand, WrongUsageNamesTheOption) {
   expect_wrong_usage("--until frame:0", "--until frame:");
   expect_wrong_usage("--until ms:-1", "--until ms:");
   expect_wrong_usage("--seed -1", "--seed");
+  expect_wrong_usage("--eyes-apart 0.065", "--stereo");
+  expect_wrong_usage("--stereo --eyes-apart 0", "--eyes-apart");
+  expect_wrong_usage("--stereo --eyes-apart near", "--eyes-apart");
 }
 
 TEST_F(RenderCommand, ACameraFileWithSeveralViewsIsWrongUsage) {

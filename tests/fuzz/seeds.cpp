@@ -5,9 +5,12 @@
 #include <iostream>
 #include <set>
 
+#include "octree/build/kd/kd_builder.h"
 #include "octree/build/stream/tree_builder.h"
 #include "tests/fuzz/folder_bytes.h"
 #include "tests/octree/node_files.h"
+#include "tests/read/laz_records.h"
+#include "tests/read/laz_writer.h"
 #include "tests/read/shared_catalog.h"
 
 namespace stipple::fuzz {
@@ -96,6 +99,25 @@ void add_las(Seeds& seeds) {
   }
 }
 
+// Every point format, version of its items, and layout.
+void add_laz(Seeds& seeds) {
+  using test::LazLayout;
+  const auto add = [&](int format, LazLayout layout) {
+    const LasFile las = test::las_for_laz(format, layout.points());
+    const unsigned channels = layout.version == 4 ? 4 : 1;
+    const test::Bytes records = test::RecordMaker(las, test::Kind::smooth, channels).make();
+    seeds.add(format < 6 ? "laz" : "laz_layered", content_of(test::LazWriter(las, records, layout).write()));
+  };
+  for (int format = 0; format <= 10; ++format) {
+    const int version = format < 6 ? 2 : 3;
+    add(format, {version, {30, 30, 5}});
+    add(format, {version, {30, 1, 9}, test::Chunking::variable, test::TablePlace::end_of_file});
+    add(format, {version, {30, 5}, test::Chunking::fixed, test::TablePlace::cut_off});
+    if (format < 6) add(format, {1, {40}, test::Chunking::none});
+    if (format >= 6) add(format, {4, {60}});
+  }
+}
+
 // 20 points at the origin, packed: a zero, and 239 copies of what stands one byte before.
 void add_packed_pcd(Seeds& seeds) {
   const std::string packed{"\0\0\xE0\xE6\0", 5};
@@ -123,8 +145,8 @@ void add_potree2(Seeds& seeds) {
     TreeFiles::usual(encoding).write(folder);
     seeds.add_folder("potree2", folder.path(""));
   }
-  // With the sidecar of our own builder
-  for (const auto encoding : {potree2::Encoding::uncompressed, potree2::Encoding::brotli}) {
+  // With the sidecar of our own builder; of a kd tree with boxes, too
+  const auto add_built = [&](const auto& build, potree2::Encoding encoding) {
     const ScratchFolder folder;
     LasFile file;
     file.format = 2;
@@ -135,9 +157,12 @@ void add_potree2(Seeds& seeds) {
     options.cluster_points = 20;
     options.encoding = encoding;
     BuildMonitor monitor;
-    build_tree(sources, folder.path("tree"), options, monitor);
+    build(sources, folder.path("tree"), options, monitor);
     seeds.add_folder("potree2", folder.path("tree"));
-  }
+  };
+  add_built(build_tree, potree2::Encoding::uncompressed);
+  add_built(build_tree, potree2::Encoding::brotli);
+  add_built(build_kd_tree, potree2::Encoding::uncompressed);
 }
 
 // LAS and LAZ nodes.
@@ -209,6 +234,7 @@ int main(int count, char** arguments) {
   Seeds seeds(arguments[1]);
   add_catalogue(seeds);
   add_las(seeds);
+  add_laz(seeds);
   add_packed_pcd(seeds);
   add_text(seeds);
   add_potree2(seeds);

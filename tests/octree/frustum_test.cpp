@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace stipple::test::octree_frustum_test {
@@ -96,6 +98,48 @@ TEST(Frustum, CullsBoxesWhollyOutsideOneSide) {
     const glm::dvec3 outwards = view.right * std::cos(view.half_x) - view.forward * std::sin(view.half_x);
     const glm::dvec3 beside = border + outwards * clear;
     ASSERT_FALSE(may_see(view.frustum(), {beside - half, beside + half}));
+  }
+}
+
+TEST(Frustum, OfTwoEyesSeesWhatEitherDoes) {
+  for (const double magnitude : {10.0, 1e7}) {
+    Scene scene(5, magnitude);
+    int visible = 0;
+    for (int i = 0; i < kTrials; ++i) {
+      const RandomView middle = scene.view();
+      Frustum both = middle.frustum();
+      both.to_side = middle.right * std::exp2(scene.uniform(-4.0, 6.0));
+      const WorldBox box = scene.box_near(middle.eye);
+      bool seen = false;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const double side : {-1.0, 1.0}) {
+        RandomView eye = middle;
+        eye.eye += side * both.to_side;
+        seen = seen || eye.sees(scene.point_in(box));
+        nearest = std::min(nearest, nearest_distance(eye.eye, box));
+      }
+      ASSERT_NEAR(nearest_distance(both, box), nearest, 1e-9 * (magnitude + nearest));
+      if (!seen) continue;
+      ++visible;
+      ASSERT_TRUE(may_see(both, box));
+    }
+    EXPECT_GT(visible, kTrials / 20);
+  }
+}
+
+TEST(Frustum, OfTwoEyesCullsWhatIsOutsideBoth) {
+  Scene scene(6, 1e6);
+  for (int i = 0; i < kTrials; ++i) {
+    const RandomView middle = scene.view();
+    Frustum both = middle.frustum();
+    both.to_side = middle.right * scene.uniform(0.1, 10.0);
+    const double half = scene.uniform(0.01, 10.0);
+    const double clear = half * 2.0 + 0.1;  // more than half the diagonal
+    const glm::dvec3 border = middle.eye + both.to_side +
+                              scene.uniform(0.0, 100.0) * (middle.forward + std::tan(middle.half_x) * middle.right);
+    const glm::dvec3 outwards = middle.right * std::cos(middle.half_x) - middle.forward * std::sin(middle.half_x);
+    const glm::dvec3 beside = border + outwards * clear;
+    ASSERT_FALSE(may_see(both, {beside - half, beside + half}));
   }
 }
 

@@ -28,13 +28,13 @@ TEST_P(VisibleNodesOf, AreThoseWhoseOwnBoxMayBeSeen) {
   for (std::uint32_t i = 0; i < octree_.nodes.size(); ++i)
     if (octree_.nodes[i].count > 0 && may_see(frustum(), world_box(octree_.grid, octree_.nodes[i].box)))
       expected.insert(i);
-  for (const VisibleNode& visible : visible_nodes(octree_, frustum(), frustum().eye)) found.insert(visible.node);
+  for (const VisibleNode& visible : visible_nodes(octree_, frustum())) found.insert(visible.node);
   EXPECT_EQ(found, expected);
 }
 
 TEST_P(VisibleNodesOf, ComeFrontToBackAndByNumberAtEqualDistance) {
   const glm::dvec3 eye = frustum().eye;
-  const std::vector<VisibleNode> visible = visible_nodes(octree_, frustum(), eye);
+  const std::vector<VisibleNode> visible = visible_nodes(octree_, frustum());
   for (std::size_t i = 0; i < visible.size(); ++i) {
     EXPECT_EQ(visible[i].distance, nearest_distance(eye, world_box(octree_.grid, octree_.nodes[visible[i].node].box)));
     if (i == 0) continue;
@@ -46,7 +46,7 @@ TEST_P(VisibleNodesOf, ComeFrontToBackAndByNumberAtEqualDistance) {
 TEST_P(VisibleNodesOf, AreNoneWhenTheViewTurnsItsBack) {
   const glm::dvec3 eye = octree_.cube.min - glm::dvec3(1.0);
   const Frustum away = make_frustum(eye, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}, 0.3, 0.3);
-  EXPECT_TRUE(visible_nodes(octree_, away, eye).empty());
+  EXPECT_TRUE(visible_nodes(octree_, away).empty());
 }
 
 }  // namespace

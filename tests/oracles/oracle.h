@@ -27,10 +27,10 @@ inline bool has_oracle(const std::string& package) {
 #define SKIP_WITHOUT_ORACLE(package) \
   if (!has_oracle(package)) GTEST_SKIP() << "takes node and " << package << ": run scripts/oracles"
 
-// What tests/oracles/`script` says of a file. Nothing when it fails.
-inline std::optional<nlohmann::json> ask_oracle(const std::string& script, const std::string& path) {
+// What tests/oracles/`script` says of a file, the first of `arguments`. Nothing when it fails.
+inline std::optional<nlohmann::json> ask_oracle(const std::string& script, const std::string& arguments) {
   const std::string text =
-      output_of("node " STIPPLE_SOURCE "/tests/oracles/" + script + " " STIPPLE_ORACLES " " + path);
+      output_of("node " STIPPLE_SOURCE "/tests/oracles/" + script + " " STIPPLE_ORACLES " " + arguments);
   if (text.empty()) return std::nullopt;
   return nlohmann::json::parse(text);
 }

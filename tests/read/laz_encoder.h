@@ -97,6 +97,10 @@ class ArithmeticEncoder {
     const std::uint32_t share = length_ >> count;
     take(value * share, share);
   }
+  void bits64(std::uint64_t value) {
+    bits(static_cast<std::uint32_t>(value), 32);
+    bits(static_cast<std::uint32_t>(value >> 32), 32);
+  }
   // What it wrote; it ends where the decoder's does.
   Bytes finish() {
     const bool wide = length_ > 1u << 25;

@@ -1,6 +1,6 @@
-// The items of a point from the writer's side: version 2, and 3 of the layered formats. Where the format leaves a
-// writer a choice, the plainest is taken. Source: LASzip specification, "POINT10", "GPSTIME11", "RGB12", "POINT14" and
-// others.
+// The items of a point from the writer's side: version 2, and what the layered formats have of it. Where the format
+// leaves a writer a choice, the plainest is taken. Source: LASzip specification, "POINT10", "GPSTIME11", "RGB12",
+// "RGBNIR14", "WAVEPACKET13" and "BYTE".
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,6 @@
 
 #include "octree/read/laz/return_context.h"
 #include "tests/read/laz_encoder.h"
-#include "tests/read/laz_fixture.h"
 
 namespace stipple::test {
 
@@ -44,7 +43,14 @@ inline std::int32_t difference(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
 
-// A record of POINT10, or POINT14 as far as it is the same.
+template <class T>
+T value_at(const std::byte* place) {
+  T value;
+  std::memcpy(&value, place, sizeof value);
+  return value;
+}
+
+// A record of POINT10.
 struct PointFields {
   std::int32_t x, y, z;
   std::uint16_t intensity;
@@ -104,7 +110,7 @@ class Point10Encoder {
 // `unchanged`: 1 where a code says so (GPSTIME11), 0 where a flag elsewhere does (POINT14).
 class GpsTimeEncoder {
  public:
-  GpsTimeEncoder(std::uint64_t first, unsigned unchanged)
+  explicit GpsTimeEncoder(std::uint64_t first, unsigned unchanged = 1)
       : unchanged_(unchanged), far_(511 + unchanged), multiples_(515 + unchanged), starts_(5 + unchanged) {
     sequences_[0].time = first;
   }
@@ -172,27 +178,25 @@ class GpsTimeEncoder {
   unsigned current_ = 0, newest_ = 0;
 };
 
+// Items below take the bytes of the point before and those of the point.
 class RgbEncoder {
  public:
-  explicit RgbEncoder(const std::byte* first) : last_(bytes(first)) {}
-
   // Bytes 0 to 5: red low, red high, green low, ...
-  void encode(ArithmeticEncoder& out, const std::byte* record) {
-    const Colour now = bytes(record);
+  void encode(ArithmeticEncoder& out, const std::byte* before, const std::byte* record) {
+    const Colour last = bytes(before), now = bytes(record);
     unsigned changed = (now[0] != now[2] || now[0] != now[4] || now[1] != now[3] || now[1] != now[5]) << 6;
-    for (unsigned i = 0; i < 6; ++i) changed |= (now[i] != last_[i]) << i;
+    for (unsigned i = 0; i < 6; ++i) changed |= (now[i] != last[i]) << i;
     out.symbol(changed_, changed);
     const auto byte = [&](unsigned i, int expected) {
       if (changed >> i & 1u) out.symbol(differences_[i], static_cast<std::uint8_t>(now[i] - expected));
     };
-    byte(0, last_[0]);
-    byte(1, last_[1]);
+    byte(0, last[0]);
+    byte(1, last[1]);
     for (unsigned half = 0; half < 2 && changed >> 6; ++half) {
-      const int red = now[half] - last_[half];
-      byte(2 + half, std::clamp(red + last_[2 + half], 0, 255));
-      byte(4 + half, std::clamp((red + now[2 + half] - last_[2 + half]) / 2 + last_[4 + half], 0, 255));
+      const int red = now[half] - last[half];
+      byte(2 + half, std::clamp(red + last[2 + half], 0, 255));
+      byte(4 + half, std::clamp((red + now[2 + half] - last[2 + half]) / 2 + last[4 + half], 0, 255));
     }
-    last_ = now;
   }
 
  private:
@@ -202,22 +206,69 @@ class RgbEncoder {
     for (std::size_t i = 0; i < 6; ++i) colour[i] = std::to_integer<int>(at[i]);
     return colour;
   }
-  Colour last_;
   SymbolCounts changed_{128};
   SymbolTables differences_{256};
 };
 
-class ExtraByteEncoder {
+class NirEncoder {
  public:
-  explicit ExtraByteEncoder(std::byte first) : last_(first) {}
-  void encode(ArithmeticEncoder& out, std::byte value) {
-    out.symbol(model_, static_cast<std::uint8_t>(std::to_integer<int>(value) - std::to_integer<int>(last_)));
-    last_ = value;
+  void encode(ArithmeticEncoder& out, const std::byte* before, const std::byte* record) {
+    const unsigned changed = (record[0] != before[0]) | (record[1] != before[1]) << 1;
+    out.symbol(changed_, changed);
+    for (unsigned i = 0; i < 2; ++i)
+      if (changed >> i & 1u)
+        out.symbol(differences_[i],
+                   static_cast<std::uint8_t>(std::to_integer<int>(record[i]) - std::to_integer<int>(before[i])));
   }
 
  private:
-  std::byte last_;
-  SymbolCounts model_{256};
+  SymbolCounts changed_{4};
+  SymbolTables differences_{256};
+};
+
+class WavePacketEncoder {
+ public:
+  void encode(ArithmeticEncoder& out, const std::byte* before, const std::byte* record) {
+    out.symbol(index_, std::to_integer<std::uint32_t>(record[0]));
+    encode_offset(out, value_at<std::uint64_t>(before + 1), value_at<std::uint64_t>(record + 1),
+                  value_at<std::uint32_t>(before + 9));
+    size_.encode(out, value_at<std::int32_t>(before + 9), value_at<std::int32_t>(record + 9));
+    place_.encode(out, value_at<std::int32_t>(before + 13), value_at<std::int32_t>(record + 13));
+    for (unsigned axis = 0; axis < 3; ++axis)
+      direction_.encode(out, value_at<std::int32_t>(before + 17 + 4 * axis),
+                        value_at<std::int32_t>(record + 17 + 4 * axis), axis);
+  }
+
+ private:
+  void encode_offset(ArithmeticEncoder& out, std::uint64_t before, std::uint64_t offset, std::uint32_t size_before) {
+    const std::uint64_t step = offset - before;
+    const auto short_step = static_cast<std::int32_t>(step);
+    const bool is_short = step == static_cast<std::uint64_t>(std::int64_t{short_step});
+    const unsigned kind = step == 0 ? 0 : step == size_before ? 1 : is_short ? 2 : 3;
+    out.symbol(kinds_[kind_before_], kind);
+    kind_before_ = kind;
+    if (kind == 2) step_.encode(out, std::exchange(step_before_, short_step), short_step);
+    if (kind == 3) out.bits64(offset);
+  }
+
+  SymbolCounts index_{256};
+  SymbolTables kinds_{4};
+  IntegerEncoder step_{32, 1}, size_{32, 1}, place_{32, 1}, direction_{32, 3};
+  unsigned kind_before_ = 0;
+  std::int32_t step_before_ = 0;
+};
+
+class ExtraBytesEncoder {
+ public:
+  explicit ExtraBytesEncoder(std::size_t count = 1) : models_(count) {}
+  void encode(ArithmeticEncoder& out, const std::byte* before, const std::byte* record) {
+    for (std::size_t i = 0; i < models_.size(); ++i)
+      out.symbol(models_[i],
+                 static_cast<std::uint8_t>(std::to_integer<int>(record[i]) - std::to_integer<int>(before[i])));
+  }
+
+ private:
+  std::vector<SymbolCounts> models_;
 };
 
 }  // namespace stipple::test

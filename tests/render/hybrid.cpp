@@ -1,6 +1,7 @@
 // What mode hybrid leaves out, and that it leaves out nothing else.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "render/method/progressive_renderer.h"
@@ -137,6 +138,7 @@ TEST_P(HybridRasterizer, RandomViewsChangedMidwayConvergeToBruteForce) {
     for (int round = 0; round < 12; ++round) {
       View view = front_view(0.01 * number(1, 200), {number(40, 90), number(30, 60)});
       view.eye += glm::dvec3(0.001 * number(-300, 300), 0.0, 0.001 * number(-300, 300));
+      view.eyes_apart = 0.001 * std::max(0, number(-400, 400));
       const auto budget = static_cast<std::uint32_t>(number(3'000, 20'000));
       // Some views are left before they converge
       if (number(0, 2) == 0) {
@@ -150,8 +152,11 @@ TEST_P(HybridRasterizer, RandomViewsChangedMidwayConvergeToBruteForce) {
       }
       EXPECT_LE(filled, points.size());
       occluded += method->counts().nodes_occluded;
-      ASSERT_TRUE(same_picture(renderer.read(), brute_force_picture(points, GetParam(), view, point_size)))
-          << "round " << round << ", point size " << point_size.pixels << ", splat size " << point_size.world;
+      for (std::size_t eye = 0; eye < view.eyes(); ++eye)
+        ASSERT_TRUE(
+            same_picture(renderer.read(eye), brute_force_picture(points, GetParam(), view.of_eye(eye), point_size)))
+            << "round " << round << ", point size " << point_size.pixels << ", splat size " << point_size.world
+            << ", eye " << eye << " of " << view.eyes();
       EXPECT_EQ(renderer.draw(view, budget).points_filled, 0u);
     }
     EXPECT_GT(occluded, 300u);

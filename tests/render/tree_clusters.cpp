@@ -91,6 +91,18 @@ TEST_P(AnyPool, ConvergesToBruteForceAfterTheCameraMoved) {
   EXPECT_TRUE(same_picture(renderer.read(), expected(view)));
 }
 
+TEST_P(AnyPool, ConvergesToBruteForceForTwoEyes) {
+  const auto method = hybrid_of(city(false).tree, GetParam());
+  ProgressiveRenderer renderer(*method, RasterizerKind::compute, city(false).points.grid);
+  View view = view_of(city(true), "low", {160, 90});
+  renderer.draw(view, 5'000);
+  view.eyes_apart = 30.0;
+  while (!renderer.draw(view, 5'000).converged) {
+  }
+  for (std::size_t eye = 0; eye < 2; ++eye)
+    EXPECT_TRUE(same_picture(renderer.read(eye), expected(view.of_eye(eye)))) << eye;
+}
+
 TEST(TreeClusters, DrawEachPointAtMostOnceForAStillView) {
   const auto method = hybrid_of(city(false).tree, 5'000);
   ProgressiveRenderer renderer(*method, RasterizerKind::compute, city(false).points.grid);

@@ -31,6 +31,15 @@ TEST(CommandLine, SaysAllThatThePictureDependsOn) {
             "--splat-size 0.25");
 }
 
+TEST(CommandLine, SaysHowFarApartTwoEyesAre) {
+  RenderCommand command;
+  command.size = {320, 480};
+  command.eyes_apart = 0.065;
+  const std::string text = text_of(command);
+  EXPECT_NE(text.find(" --size 320x480 "), std::string::npos);
+  EXPECT_TRUE(text.ends_with(" --stereo --eyes-apart 0.065")) << text;
+}
+
 TEST(ExactText, HasTheDecimalsOfTheGrid) {
   Grid grid{.offset = {500000.0, 5000000.0, 0.0}, .scale = {0.01, 0.001, 1.0}};
   const glm::ivec3 p{1234567, -1, 42};

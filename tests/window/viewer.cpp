@@ -221,6 +221,51 @@ TEST_F(ViewerWindow, ShowsTwoMethodsSideBySideWithOneCamera) {
   EXPECT_EQ(left.rgb, headless().rgb);
 }
 
+TEST_F(ViewerWindow, ShowsTwoEyesSideBySide) {
+  start(2.0);
+  ASSERT_TRUE(complete());
+  const Image one = viewer_->picture();
+  display().press("y");
+  ASSERT_TRUE(complete());
+  EXPECT_EQ(viewer_->view().eyes(), 2u);
+  const Image both = viewer_->picture();
+  EXPECT_EQ(both.size, kSize);
+  EXPECT_EQ(both.rgb, headless().rgb);
+
+  display().press("o");
+  steps(5);
+  EXPECT_NE(viewer_->picture().rgb, both.rgb) << "boxes";
+  display().press("o");
+  steps(5);
+  EXPECT_EQ(viewer_->picture().rgb, both.rgb);
+
+  // The same point is picked in either eye's picture
+  const auto picked = [&](int x) {
+    const std::size_t before = viewer_->picks().size();
+    display().move(x, kCentreY);
+    display().button(1, true);
+    display().button(1, false);
+    EXPECT_TRUE(until([&] { return viewer_->picks().size() > before; }));
+    return viewer_->picks().back().world;
+  };
+  const glm::dvec3 point = picked(kCentreX);
+  const View right = viewer_->view().of_eye(1);
+  const glm::dvec3 r = point - right.eye;
+  const double depth = glm::dot(right.forward, r);
+  EXPECT_NEAR(160.0 * (1.0 + glm::dot(right.right, r) * right.cot_x / depth), kCentreX - 320, 9.0);
+  EXPECT_NEAR(200.0 * (1.0 - glm::dot(right.up, r) * right.cot_y / depth), kCentreY, 9.0);
+
+  display().press("v");  // takes the place of two eyes
+  ASSERT_TRUE(until([&] { return viewer_->stage().frame(Stage::right) != nullptr; }));
+  EXPECT_FALSE(viewer_->shows_two_eyes());
+  display().press("y");
+  EXPECT_TRUE(until([&] { return viewer_->shows_two_eyes(); }));
+  EXPECT_FALSE(viewer_->stage().is_split());
+  display().press("y");
+  ASSERT_TRUE(complete());
+  EXPECT_EQ(viewer_->picture().rgb, one.rgb);
+}
+
 TEST_F(ViewerWindow, AStillViewDrawsNothing) {
   start();
   ASSERT_TRUE(complete());
