@@ -7,16 +7,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <thread>
-#include <utility>
 
 #include "octree/build/kd/kd_partition.h"
 #include "octree/build/stream/inputs.h"
 #include "octree/build/subtree.h"
 #include "octree/core/error.h"
 #include "octree/core/output_file.h"
+#include "octree/core/stopwatch.h"
 #include "octree/store/potree2/kd_boxes.h"
 #include "octree/store/potree2/sidecar.h"
 #include "octree/store/potree2/writer_folder.h"
@@ -54,7 +53,7 @@ class KdBuild {
 
   BuildReport run() {
     monitor_.begin(BuildPhase::counting);
-    find_bounds();
+    read_until_right([this] { return inputs_.read_positions([](std::span<const glm::ivec3>) {}); });
     lap(BuildPhase::counting);
     monitor_.begin(BuildPhase::distributing);
     read();
@@ -98,25 +97,17 @@ class KdBuild {
                       points, bytes, options_.memory));
   }
 
-  void find_bounds() {
-    for (int attempt = 0; attempt < 3; ++attempt)
-      if (inputs_.read_positions([](std::span<const glm::ivec3>) {})) return;
-    throw Error(
-        "the positions differ each time they are read: a file is being written. Build again when it is complete.");
-  }
-
   void read() {
     const std::size_t record = inputs_.record_bytes();
     records_.resize(inputs_.point_count() * record);
     std::atomic<std::size_t> end{0};
     inputs_.read_records(stats_, [&](std::span<const std::byte> batch) {
       const std::size_t place = end.fetch_add(batch.size());
-      if (place + batch.size() > records_.size())
-        throw Error("a file changed while it was read. Build again when all are complete.");
+      if (place + batch.size() > records_.size()) throw changed_while_read();
       std::ranges::copy(batch, records_.begin() + static_cast<std::ptrdiff_t>(place));
       monitor_.add_points(BuildPhase::distributing, batch.size() / record);
     });
-    if (end != records_.size()) throw Error("a file changed while it was read. Build again when all are complete.");
+    if (end != records_.size()) throw changed_while_read();
   }
 
   void code() {
@@ -206,7 +197,7 @@ class KdBuild {
     metadata.cube = {cube.min, cube.min + cube.edge};
     metadata.schema = inputs_.schema();
     metadata.ranges = stats_.ranges();
-    metadata.ranges.insert(metadata.ranges.begin(), position_range());
+    metadata.ranges.insert(metadata.ranges.begin(), inputs_.position_range());
     const std::string text = potree2::write_metadata(metadata);
     write_file(folder_.path() + "/hierarchy.bin", hierarchy_bytes);
     potree2::write_boxes(folder_.path(), boxes);
@@ -225,16 +216,7 @@ class KdBuild {
         records_.size() + hierarchy_bytes.size() + text.size() + sidecar_bytes + boxes.size() * potree2::kBoxBytes;
   }
 
-  AttributeRange position_range() const {
-    const WorldBox box =
-        nodes_.empty() ? WorldBox{glm::dvec3(0.0), glm::dvec3(0.0)} : world_box(inputs_.grid(), inputs_.bounds());
-    return {{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}, {}};
-  }
-
-  void lap(BuildPhase phase) {
-    const auto now = std::chrono::steady_clock::now();
-    report_.phases.push_back({phase, std::chrono::duration<double>(now - std::exchange(start_, now)).count()});
-  }
+  void lap(BuildPhase phase) { report_.phases.push_back({phase, stopwatch_.lap()}); }
 
   const StreamOptions& options_;
   BuildMonitor& monitor_;
@@ -249,7 +231,7 @@ class KdBuild {
   Buffer<CodedPoint> points_;
   std::vector<KdNode> nodes_;
   std::vector<Own> own_;  // in the order of nodes
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch stopwatch_;
   BuildReport report_;
 };
 

@@ -173,4 +173,20 @@ void Inputs::read_records(AttributeStats& stats, const RecordConsumer& consume) 
   for (const AttributeStats& part : parts) stats.add(part);
 }
 
+AttributeRange Inputs::position_range() const {
+  const WorldBox box = bounds_.empty() ? WorldBox{glm::dvec3(0.0), glm::dvec3(0.0)} : world_box(grid_, bounds_);
+  return {{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}, {}};
+}
+
+void read_until_right(const std::function<bool()>& read) {
+  for (int attempt = 0; attempt < 3; ++attempt)
+    if (read()) return;
+  throw Error(
+      "the positions differ each time they are read: a file is being written. Build again when it is complete.");
+}
+
+Error changed_while_read() {
+  return Error("a file changed while it was read. Build again when all are complete.");
+}
+
 }  // namespace stipple

@@ -12,6 +12,8 @@
 #include "octree/build/stream/record.h"
 #include "octree/cloud/merged_schema.h"
 #include "octree/cloud/source.h"
+#include "octree/core/error.h"
+#include "octree/store/tree_store.h"
 
 namespace stipple {
 
@@ -30,6 +32,8 @@ class Inputs {
   // As far as known.
   const Grid& grid() const { return grid_; }
   const GridBox& bounds() const { return bounds_; }
+  // Of the bounds, in world units; zeros where there are no points.
+  AttributeRange position_range() const;
   // Of the positions that the last reading gave; 0: every position was exact.
   double largest_rounding() const { return largest_rounding_; }
 
@@ -65,5 +69,12 @@ class Inputs {
   GridBox bounds_;
   double largest_rounding_ = 0.0;
 };
+
+// Has `read` read all positions, which says whether grid and bounds were right meanwhile, until they were. Throws Error
+// when they never are.
+void read_until_right(const std::function<bool()>& read);
+
+// What to throw where a file gives other points than before.
+Error changed_while_read();
 
 }  // namespace stipple

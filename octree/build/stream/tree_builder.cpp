@@ -5,27 +5,16 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 #include "octree/build/stream/distribute.h"
 #include "octree/build/stream/region_builder.h"
 #include "octree/core/error.h"
+#include "octree/core/stopwatch.h"
 #include "octree/store/potree2/writer_folder.h"
 
 namespace stipple {
 namespace {
-
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void check(const StreamOptions& options) {
   if (options.leaf_capacity == 0 || options.cluster_points == 0 || options.chunk_points == 0)
@@ -43,14 +32,15 @@ CodeFeed code_feed(Inputs& inputs) {
           positions.size(), quantizer, [&](std::size_t i) { return positions[i]; },
           [&](std::size_t, std::span<const std::uint64_t> codes) { consume(codes); });
     });
-    if (!right) throw Error("a file changed while it was read. Build again when all are complete.");
+    if (!right) throw changed_while_read();
   };
 }
 
 // Counts all points in the cells of their cube, which is known only then: headers give it, nearly always rightly.
 CellMap first_count(Inputs& inputs) {
-  for (int attempt = 0; attempt < 3; ++attempt) {
-    CellMap map(0, 0);
+  CellMap map(0, 0);
+  read_until_right([&] {
+    map = CellMap(0, 0);
     const Quantizer quantizer(inputs.grid(), inputs.bounds());
     bool right = false;
     map.count([&](const CodeConsumer& consume) {
@@ -60,20 +50,13 @@ CellMap first_count(Inputs& inputs) {
             [&](std::size_t, std::span<const std::uint64_t> codes) { consume(codes); });
       });
     });
-    if (right) return map;
-  }
-  throw Error(
-      "the positions differ each time they are read: a file is being written. Build again when it is complete.");
+    return right;
+  });
+  return map;
 }
 
 WorldBox box_of(const RootCube& cube) {
   return {cube.min, cube.min + cube.edge};
-}
-
-potree2::AttributeRange position_range(const CubeFrame& frame) {
-  const WorldBox box =
-      frame.bounds.empty() ? WorldBox{glm::dvec3(0.0), glm::dvec3(0.0)} : world_box(frame.grid, frame.bounds);
-  return {{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}, {}};
 }
 
 class TreeBuild {
@@ -132,7 +115,7 @@ class TreeBuild {
     metadata.encoding = setup_.options.encoding;
     metadata.schema = inputs_.schema();
     metadata.ranges = stats_.ranges();
-    metadata.ranges.insert(metadata.ranges.begin(), position_range(setup_.frame));
+    metadata.ranges.insert(metadata.ranges.begin(), inputs_.position_range());
     potree2::SidecarHeader sidecar;
     sidecar.sampling = static_cast<std::uint32_t>(setup_.options.sampling);
     sidecar.fraction = setup_.options.sampling == Sampling::poisson ? kPoissonFraction : 0.0;
