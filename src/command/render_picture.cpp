@@ -14,16 +14,12 @@
 namespace stipple {
 namespace {
 
-std::vector<std::uint32_t> shaded_colors(const FeedbackTarget& frame, const EyeDomeOptions& shading) {
-  EyeDome eye_dome;
-  return read_colors(eye_dome.shade(frame, shading));
-}
-
 FrameData read_picture(ProgressiveRenderer& renderer, const View& view, const std::optional<EyeDomeOptions>& shading) {
+  EyeDome eye_dome;
   std::vector<FrameData> frames;
   for (std::size_t eye = 0; eye < view.eyes(); ++eye) {
     frames.push_back(renderer.read(eye));
-    if (shading) frames.back().rgba = shaded_colors(*renderer.frame(eye), *shading);
+    if (shading) frames.back().rgba = read_colors(eye_dome.shade(*renderer.frame(eye), *shading));
   }
   return side_by_side(std::move(frames));
 }
@@ -63,10 +59,9 @@ Json stats_of(const View& view, const FrameState& state, const SelectionCounts& 
 
 Json loading_json(LoadingDrawing& drawing, const FrameState& last, Json frames) {
   const LoadingDrawing::Times& times = drawing.times();
-  const auto json = [](const std::optional<double>& ms) { return ms ? Json(*ms) : Json(); };
-  return {{"first_points_ms", json(times.first_points_ms)},
-          {"loaded_ms", json(times.loaded_ms)},
-          {"clusters_ms", json(times.clusters_ms)},
+  return {{"first_points_ms", json_of(times.first_points_ms)},
+          {"loaded_ms", json_of(times.loaded_ms)},
+          {"clusters_ms", json_of(times.clusters_ms)},
           {"converged_ms", last.converged ? Json(last.milliseconds) : Json()},
           {"points_loaded", drawing.loading().points_loaded()},
           {"bytes_uploaded", drawing.loading().bytes_uploaded()},

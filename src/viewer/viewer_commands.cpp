@@ -27,19 +27,20 @@ std::string free_name(const std::string& stem, const std::string& extension) {
 void Viewer::execute(Command command) {
   frames_to_show_ = kFramesAfterEvent;
   note_.clear();
+  const auto want = [this](Mode mode) { stage_.want(mode, right_meant_ ? Stage::right : Stage::left); };
   switch (command) {
     case Command::method_unstructured:
-      return stage_.want(Mode::unstructured, right_meant_ ? Stage::right : Stage::left);
+      return want(Mode::unstructured);
     case Command::method_hierarchical:
-      return stage_.want(Mode::hierarchical, right_meant_ ? Stage::right : Stage::left);
+      return want(Mode::hierarchical);
     case Command::method_hybrid:
-      return stage_.want(Mode::hybrid, right_meant_ ? Stage::right : Stage::left);
+      return want(Mode::hybrid);
     case Command::method_brute_force:
-      return stage_.want(Mode::brute_force, right_meant_ ? Stage::right : Stage::left);
+      return want(Mode::brute_force);
     case Command::method_lod:
-      return stage_.want(Mode::lod, right_meant_ ? Stage::right : Stage::left);
+      return want(Mode::lod);
     case Command::method_subsample:
-      return stage_.want(Mode::subsample, right_meant_ ? Stage::right : Stage::left);
+      return want(Mode::subsample);
     case Command::split:
       shown_sides_ = Shown::both;
       two_eyes_ = false;
