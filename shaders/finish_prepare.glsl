@@ -2,7 +2,7 @@
 #include "packing.glsl"
 layout(local_size_x = 1) in;
 
-layout(std430, binding = 2) buffer Command { CarriedCommand command; };
+layout(std430, binding = 2) buffer Command { IndirectCommand command; };
 layout(location = 0) uniform uint group_size;
 
 void main() {

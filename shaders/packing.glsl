@@ -3,8 +3,9 @@
 // The id that stands for "no point": point 0 is a point.
 const uint kNoPoint = 0xFFFFFFFFu;
 
-// Carried vertices, or places of points: how many there are, and the commands that draw them.
-struct CarriedCommand {
+// Points of which only the GPU knows how many there are, or where: carried ones, or those it steers. And the commands that
+// draw them.
+struct IndirectCommand {
   uint count;           // glDrawArraysIndirect: vertices,
   uint instance_count;  // instances,
   uint first;           // first vertex,
@@ -12,11 +13,11 @@ struct CarriedCommand {
   uint groups_x;        // glDispatchComputeIndirect
   uint groups_y;
   uint groups_z;
-  uint begin;           // place of the first in their buffer
+  uint begin;           // place of the first, where they begin elsewhere than at 0
 };
 
 // How the compute rasterizer draws command.count points in work groups of this size.
-void set_groups(inout CarriedCommand command, uint group_size) {
+void set_groups(inout IndirectCommand command, uint group_size) {
   uint groups = (command.count + group_size - 1u) / group_size;
   uint rows = (groups + 65534u) / 65535u;
   command.groups_x = rows == 0u ? 0u : (groups + rows - 1u) / rows;

@@ -2,6 +2,7 @@
 //   SOURCE_RANGE    consecutive points of a buffer (fill)
 //   SOURCE_VERTICES points collected from the last frame, counted on the GPU (reproject as S19)
 //   SOURCE_INDICES  places of points collected from the last frame, counted on the GPU (reproject as S18)
+//   SOURCE_STEERED  consecutive points of a buffer, around its end, that the GPU chose itself (fill as S19 steers it)
 //   SOURCE_PICKS    points of a buffer in the places that another names (fill by cluster)
 //   SOURCE_GRID     the last frame itself, a point a pixel (reproject as T16)
 // A PointIndex names one of them: a number, or a pixel, because dividing numbers costs more than all the rest.
@@ -33,13 +34,16 @@ layout(location = 2) uniform uint source_id_shift;  // id minus place, modulo 2^
 layout(location = 3) uniform bool source_has_ids;
 
 #ifdef SOURCE_VERTICES
-layout(std430, binding = 2) readonly buffer SourceCommand { CarriedCommand source_command; };
+layout(std430, binding = 2) readonly buffer SourceCommand { IndirectCommand source_command; };
 uint source_count() { return source_command.count; }
-#elif defined(SOURCE_INDICES)
-layout(std430, binding = 4) readonly buffer SourceCommands { CarriedCommand source_commands[]; };
+#elif defined(SOURCE_INDICES) || defined(SOURCE_STEERED)
+layout(std430, binding = 4) readonly buffer SourceCommands { IndirectCommand source_commands[]; };
 uint source_count() { return source_commands[source_first].count; }
-#else
+#endif
+#if !defined(SOURCE_VERTICES) && !defined(SOURCE_INDICES)
 layout(location = 1) uniform uint source_size;
+#endif
+#if defined(SOURCE_RANGE) || defined(SOURCE_PICKS)
 uint source_count() { return source_size; }
 #endif
 
@@ -51,6 +55,11 @@ uint fetch_place(uint i) { return texelFetch(source_places, int(i)).x; }
 uint place_of(uint i) { return fetch_place(source_first + i); }
 #elif defined(SOURCE_INDICES)
 uint place_of(uint i) { return fetch_place(source_commands[source_first].begin + i); }
+#elif defined(SOURCE_STEERED)
+uint place_of(uint i) {
+  uint place = source_commands[source_first].begin + i;
+  return place < source_size ? place : place - source_size;
+}
 #else
 uint place_of(uint i) { return source_first + i; }
 #endif

@@ -7,7 +7,7 @@ layout(binding = 0) uniform isampler2D previous_points;
 layout(binding = 1) uniform usampler2D previous_ids;
 layout(std430, binding = 0) writeonly buffer CarriedPoints { ivec4 carried_points[]; };
 layout(std430, binding = 1) writeonly buffer CarriedIds { uint carried_ids[]; };
-layout(std430, binding = 2) buffer Command { CarriedCommand command; };
+layout(std430, binding = 2) buffer Command { IndirectCommand command; };
 
 shared uint group_count;
 shared uint group_first;

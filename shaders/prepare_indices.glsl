@@ -4,7 +4,7 @@
 
 layout(std430, binding = 0) readonly buffer SlotOf { uint slot_of[]; };  // of the point with this id
 layout(std430, binding = 1) writeonly buffer Places { uint places[]; };
-layout(std430, binding = 2) buffer Commands { CarriedCommand commands[]; };  // one a chunk
+layout(std430, binding = 2) buffer Commands { IndirectCommand commands[]; };  // one a chunk
 
 #ifdef BEGIN
 
@@ -15,7 +15,7 @@ layout(location = 1) uniform uint group_size;
 void main() {
   uint begin = 0u;
   for (uint c = 0u; c < chunks; ++c) {
-    CarriedCommand command = commands[c];
+    IndirectCommand command = commands[c];
     command.begin = begin;
     command.instance_count = 1u;
     set_groups(command, group_size);

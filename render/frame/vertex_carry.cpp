@@ -28,7 +28,7 @@ std::size_t checked_pixels(const glm::ivec2& size) {
 VertexCarry::VertexCarry(const glm::ivec2& size)
     : points_(checked_pixels(size) * sizeof(PackedPoint)),
       ids_(pixels_of(size) * sizeof(std::uint32_t)),
-      command_(sizeof(CarriedCommand)),
+      command_(sizeof(IndirectCommand)),
       prepare_(Program::compute("prepare.glsl")),
       finish_(Program::compute("finish_prepare.glsl")) {
   command_.fill(0);

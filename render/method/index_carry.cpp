@@ -32,7 +32,7 @@ IndexCarry::IndexCarry(const GpuCloud& cloud, std::span<const std::uint32_t> slo
     : cloud_(cloud),
       own_slots_(upload_slots(slot_of)),
       slot_of_(own_slots_),
-      commands_(cloud.chunks().size() * sizeof(CarriedCommand)),
+      commands_(cloud.chunks().size() * sizeof(IndirectCommand)),
       count_(compile_pass({{"COUNT"}})),
       begin_(compile_pass({{"BEGIN"}})),
       write_(compile_pass({})) {}
@@ -40,7 +40,7 @@ IndexCarry::IndexCarry(const GpuCloud& cloud, std::span<const std::uint32_t> slo
 IndexCarry::IndexCarry(const GpuCloud& cloud, const GpuBuffer& slot_of)
     : cloud_(cloud),
       slot_of_(slot_of),
-      commands_(cloud.chunks().size() * sizeof(CarriedCommand)),
+      commands_(cloud.chunks().size() * sizeof(IndirectCommand)),
       count_(compile_pass({{"COUNT"}})),
       begin_(compile_pass({{"BEGIN"}})),
       write_(compile_pass({})) {}

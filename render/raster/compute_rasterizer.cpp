@@ -17,13 +17,9 @@ Program compile_raster_over_picture(std::vector<ShaderDefine> defines) {
 void dispatch_points(SourcePrograms& programs, std::span<const DrawItem> items) {
   for (const DrawItem& item : items) {
     programs.use_for(item);
-    if (const auto* vertices = std::get_if<CarriedVertices>(&item)) {
-      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, vertices->command->name());
-      glDispatchComputeIndirect(offsetof(CarriedCommand, groups_x));
-    } else if (const auto* indices = std::get_if<CarriedIndices>(&item)) {
-      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, indices->commands->name());
-      glDispatchComputeIndirect(
-          static_cast<GLintptr>(indices->command * sizeof(CarriedCommand) + offsetof(CarriedCommand, groups_x)));
+    if (const auto command = command_of(item)) {
+      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, command->buffer->name());
+      glDispatchComputeIndirect(static_cast<GLintptr>(command->offset + offsetof(IndirectCommand, groups_x)));
     } else if (const auto* grid = std::get_if<CarriedGrid>(&item)) {
       dispatch_pixels(grid->previous->size());
     } else {

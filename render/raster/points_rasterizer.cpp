@@ -12,12 +12,9 @@ Program compile_points(const std::vector<ShaderDefine>& defines) {
 void draw_points(SourcePrograms& programs, std::span<const DrawItem> items) {
   for (const DrawItem& item : items) {
     programs.use_for(item);
-    if (const auto* vertices = std::get_if<CarriedVertices>(&item)) {
-      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, vertices->command->name());
-      glDrawArraysIndirect(GL_POINTS, nullptr);
-    } else if (const auto* indices = std::get_if<CarriedIndices>(&item)) {
-      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, indices->commands->name());
-      glDrawArraysIndirect(GL_POINTS, reinterpret_cast<const void*>(indices->command * sizeof(CarriedCommand)));
+    if (const auto command = command_of(item)) {
+      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command->buffer->name());
+      glDrawArraysIndirect(GL_POINTS, reinterpret_cast<const void*>(command->offset));
     } else if (const auto* grid = std::get_if<CarriedGrid>(&item)) {
       glDrawArraysInstanced(GL_POINTS, 0, grid->previous->size().x, grid->previous->size().y);
     } else {

@@ -28,7 +28,7 @@ struct PointRange {
 struct CarriedVertices {
   const GpuBuffer* points = nullptr;
   const GpuBuffer* ids = nullptr;
-  const GpuBuffer* command = nullptr;  // CarriedCommand of shaders/packing.glsl
+  const GpuBuffer* command = nullptr;  // IndirectCommand of shaders/packing.glsl
 };
 
 // The pixels of the last frame, each a point.
@@ -50,14 +50,24 @@ struct CarriedIndices {
   const GpuBuffer* points = nullptr;
   const GpuBuffer* ids = nullptr;       // uint32 a point
   const GpuBuffer* places = nullptr;    // uint32; as many as the picture has pixels
-  const GpuBuffer* commands = nullptr;  // CarriedCommands, of which this item's is
+  const GpuBuffer* commands = nullptr;  // IndirectCommands, of which this item's is
   std::uint32_t command = 0;            // number
 };
 
-using DrawItem = std::variant<PointRange, CarriedVertices, CarriedGrid, PickedPoints, CarriedIndices>;
+// Consecutive points of the first `size` of a buffer, around their end to their beginning; where they begin and how
+// many they are, only the GPU knows.
+struct SteeredRange {
+  const GpuBuffer* points = nullptr;
+  const GpuBuffer* ids = nullptr;       // uint32 a point
+  const GpuBuffer* commands = nullptr;  // IndirectCommands, of which this item's is
+  std::uint32_t command = 0;            // number
+  std::uint32_t size = 0;
+};
 
-// Layout of CarriedCommand in shaders/packing.glsl.
-struct CarriedCommand {
+using DrawItem = std::variant<PointRange, CarriedVertices, CarriedGrid, PickedPoints, CarriedIndices, SteeredRange>;
+
+// Layout of IndirectCommand in shaders/packing.glsl.
+struct IndirectCommand {
   std::uint32_t count, instance_count, first, base_instance;  // glDrawArraysIndirect
   std::uint32_t groups_x, groups_y, groups_z;                 // glDispatchComputeIndirect
   std::uint32_t begin;

@@ -62,12 +62,21 @@ void bind(const CarriedIndices& carried) {
   glUniform1i(3, 1);
 }
 
+void bind(const SteeredRange& range) {
+  bind_points(*range.points);
+  bind_ids(*range.ids);
+  range.commands->bind_storage(4);
+  glUniform1ui(0, range.command);
+  glUniform1ui(1, range.size);
+  glUniform1i(3, 1);
+}
+
 }  // namespace
 
 Program SourcePrograms::compile(std::size_t kind, bool splats) const {
   // In the order of DrawItem
   constexpr std::array<const char*, std::variant_size_v<DrawItem>> kSources{
-      "SOURCE_RANGE", "SOURCE_VERTICES", "SOURCE_GRID", "SOURCE_PICKS", "SOURCE_INDICES"};
+      "SOURCE_RANGE", "SOURCE_VERTICES", "SOURCE_GRID", "SOURCE_PICKS", "SOURCE_INDICES", "SOURCE_STEERED"};
   std::vector<ShaderDefine> defines{{kSources[kind]}, {pass_}};
   if (splats) defines.push_back({"SPLATS"});
   return make_(defines);
@@ -95,11 +104,21 @@ void TieNotes::settle() {
   glDispatchCompute(16, 1, 1);
 }
 
+std::optional<CommandPlace> command_of(const DrawItem& item) {
+  if (const auto* vertices = std::get_if<CarriedVertices>(&item)) return CommandPlace{vertices->command, 0};
+  if (const auto* indices = std::get_if<CarriedIndices>(&item))
+    return CommandPlace{indices->commands, indices->command * sizeof(IndirectCommand)};
+  if (const auto* range = std::get_if<SteeredRange>(&item))
+    return CommandPlace{range->commands, range->command * sizeof(IndirectCommand)};
+  return std::nullopt;
+}
+
 std::size_t item_capacity(const DrawItem& item) {
   if (const auto* range = std::get_if<PointRange>(&item)) return range->count;
   if (const auto* picked = std::get_if<PickedPoints>(&item)) return picked->count;
   if (const auto* grid = std::get_if<CarriedGrid>(&item))
     return static_cast<std::size_t>(grid->previous->size().x) * static_cast<std::size_t>(grid->previous->size().y);
+  if (const auto* steered = std::get_if<SteeredRange>(&item)) return steered->size;
   if (const auto* indices = std::get_if<CarriedIndices>(&item)) return indices->places->bytes() / sizeof(std::uint32_t);
   return std::get<CarriedVertices>(item).points->bytes() / sizeof(PackedPoint);
 }

@@ -53,6 +53,14 @@ class TieNotes {
   Program settle_;
 };
 
+// Where the GPU keeps the command that draws an item.
+struct CommandPlace {
+  const GpuBuffer* buffer = nullptr;  // of IndirectCommands
+  std::size_t offset = 0;             // bytes
+};
+// Nothing for items whose points the CPU has counted.
+std::optional<CommandPlace> command_of(const DrawItem& item);
+
 // Upper bound of the points of an item, where the CPU knows one: a vertex for each pixel at most.
 std::size_t item_capacity(const DrawItem& item);
 
