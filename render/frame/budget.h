@@ -15,6 +15,9 @@ class BudgetController {
     std::uint32_t most = 4'000'000;
   };
 
+  // Where to start from when nothing is known.
+  static constexpr std::uint32_t kFirstBudget = 100'000;
+
   BudgetController(double target_ms, std::uint32_t first_budget, const Limits& limits);
 
   // Points the next frame may draw.

@@ -32,6 +32,9 @@ namespace gl_delete {
 inline void buffer(GLuint name) {
   glDeleteBuffers(1, &name);
 }
+inline void query(GLuint name) {
+  glDeleteQueries(1, &name);
+}
 inline void texture(GLuint name) {
   glDeleteTextures(1, &name);
 }

@@ -163,7 +163,7 @@ std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Oct
     case Mode::unstructured:
       check_room(mode, points.size(), points.size() * kGpuBytesPerPoint, options.limits);
       return std::make_unique<Unstructured>(points, options.seed,
-                                            options.carry_indices ? Carry::indices : Carry::vertices);
+                                            options.carry_indices ? Carry::indices : Carry::vertices, options.steering);
     case Mode::hybrid:
       return make_hybrid(points, options);
     case Mode::lod:

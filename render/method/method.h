@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "octree/select/density.h"
+#include "render/frame/budget.h"
 #include "render/frame/camera.h"
 #include "render/frame/point_size.h"
 #include "render/method/sighted_box.h"
@@ -51,6 +52,8 @@ struct SelectionCounts {
 // Counts a cluster among those.
 void count_splats(SplatRange range, SelectionCounts& counts);
 
+class SteeredRound;
+
 class Method {
  public:
   virtual ~Method() = default;
@@ -76,6 +79,9 @@ class Method {
   // The next points for this view, at most `budget`, for each of its eyes. Valid until the next call. The block of the
   // first eye is bound.
   virtual Selection select(std::uint32_t budget) = 0;
+  // Where the GPU decides how many points a frame draws (MethodOptions::steering), this does it. Then select()'s budget
+  // is the most, and what is selected and whether the method has finished are known as late as the GPU tells.
+  virtual SteeredRound* steered() { return nullptr; }
   // The frame of this eye with the selected points is drawn; the eye's block is bound.
   virtual void frame_drawn(const FeedbackTarget&, std::size_t /*eye*/) {}
   // Nothing is left for this view: the picture equals the brute-force picture, but for mode lod, which stops at the
@@ -104,6 +110,13 @@ std::string mode_names();
 // What the mode draws from: all points in memory, or an octree, which may stay on disk.
 DatasetNeeds needs_of(Mode mode);
 
+// The GPU steers the points a frame, as BudgetController does, to this time by its own clock.
+struct GpuSteering {
+  double target_ms = 0.0;
+  std::uint32_t first_budget = BudgetController::kFirstBudget;
+  BudgetController::Limits limits{};
+};
+
 struct MethodOptions {
   std::uint64_t seed = 0;                  // of the shuffle
   std::uint32_t largest_budget = 1 << 20;  // points select() may be asked for; limits may allow fewer
@@ -113,6 +126,7 @@ struct MethodOptions {
   bool keep_still = true;                                // hybrid: a frame of a still view adds to the last one
   bool carry_indices = false;                            // unstructured: as S18, not as S19
   DensityEstimate density = DensityEstimate::box_count;  // hierarchical: how many points are worth a round
+  std::optional<GpuSteering> steering{};                 // unstructured: without it select() has the budget
 };
 
 // Points (and the tree, where the mode needs one: points then stand in its store order) must outlive the method.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "octree/core/error.h"
+#include "render/method/steered_round.h"
 
 namespace stipple {
 namespace {
@@ -104,8 +105,13 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size, std::size_t eyes) {
   point.write(0, &black, sizeof black);
   GpuBuffer zero(sizeof(std::uint32_t));
   zero.fill(0);
-  const std::vector<DrawItem> items{PointRange{.points = &point, .count = 1},
-                                    PickedPoints{.points = &point, .ids = &zero, .places = &zero, .count = 1}};
+  std::vector<DrawItem> items{PointRange{.points = &point, .count = 1},
+                              PickedPoints{.points = &point, .ids = &zero, .places = &zero, .count = 1}};
+  GpuBuffer command(sizeof(IndirectCommand));
+  const IndirectCommand one{1, 1, 0, 0, 1, 1, 1, 0};
+  command.write(0, &one, sizeof one);
+  if (steered())
+    items.push_back(SteeredRange{.points = &point, .ids = &zero, .commands = &command, .command = 0, .size = 1});
   // The point lies in front of the eye, so that no pass ends early
   const View view{.eye = grid_.world_from_grid(glm::ivec3(0)) - glm::dvec3(0, 10, 0),
                   .near = 1.0,
@@ -141,8 +147,11 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
     view_drawn_ = false;
     method_->start_view(view);
   }
+  SteeredRound* const steered = method_->steered();
+  if (steered) steered->hear();
   // A view of nothing is finished before it begins, but the last view's picture must go
-  if (view_drawn_ && method_->finished()) return {0, true};
+  if (view_drawn_ && method_->finished())
+    return report_ = {.points_filled = steered ? steered->take_points() : 0, .converged = true, .budget = budget};
 
   begin_frame();
   const bool by_what_is_carried = !kept_ && !blank_ && method_->selects_by_what_is_carried();
@@ -153,7 +162,19 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   for (std::size_t eye = 0; eye < eyes_.size(); ++eye) draw_selected(selection.items, kept_ || by_what_is_carried, eye);
   blank_ = false;
   view_drawn_ = true;
-  return {selection.points, method_->finished()};
+  report_ = {.points_filled = selection.points, .converged = method_->finished(), .budget = budget};
+  if (steered) report_.points_filled = steered->take_points();
+  return report_;
+}
+
+FrameReport ProgressiveRenderer::await_report() {
+  if (SteeredRound* const steered = method_->steered()) {
+    steered->await();
+    report_.points_filled += steered->take_points();
+    report_.converged = view_drawn_ && steered->finished();
+    report_.budget = steered->budget();
+  }
+  return report_;
 }
 
 void ProgressiveRenderer::begin_frame() {

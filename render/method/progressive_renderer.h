@@ -20,7 +20,8 @@ namespace stipple {
 // What one frame did.
 struct FrameReport {
   std::uint64_t points_filled = 0;
-  bool converged = false;  // the picture equals the brute-force picture of this view
+  bool converged = false;    // the picture equals the brute-force picture of this view
+  std::uint32_t budget = 0;  // points it was allowed
 };
 
 // A view of two eyes has one selection: what it streams is drawn into the frame of each (T16), and each eye carries
@@ -44,8 +45,14 @@ class ProgressiveRenderer {
 
   // Draws the next frame: the last one, of whatever size, reprojected into `view` or, where the view is the same and
   // the method likes it, as it stands; and at most `budget` more points. A second eye begins with what the first saw. A
-  // converged, still view costs nothing. Commands are issued, not awaited.
+  // converged, still view costs nothing. Commands are issued, not awaited. Where the GPU steers (steered()), `budget`
+  // is the most, and the report is as late as the GPU: it holds what that told since the last one, perhaps of no frame
+  // yet.
   FrameReport draw(const View& view, std::uint32_t budget);
+  // The last frame's report, complete: waits for the GPU if that steers.
+  FrameReport await_report();
+  // Whether the GPU decides how many points a frame of this method draws.
+  bool steered() const { return method_->steered() != nullptr; }
 
   // The last frame of this eye, on the GPU; null before the first, and where the last view had fewer eyes. Valid until
   // the next draw().
@@ -100,6 +107,7 @@ class ProgressiveRenderer {
   int carry_room_ = 0;                   // pixels
   std::size_t current_ = 0;
   View view_;                // of size 0: none
+  FrameReport report_;       // of the last frame
   bool blank_ = true;        // no frame was drawn yet
   bool view_drawn_ = false;  // whether the last frame shows view_
   bool kept_ = false;        // the last frame is the one before and what was added to it

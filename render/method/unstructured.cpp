@@ -28,9 +28,13 @@ std::vector<std::uint32_t> slots_of(const PointSet& points, std::uint64_t seed) 
 
 }  // namespace
 
-Unstructured::Unstructured(const PointSet& points, std::uint64_t seed, Carry carry)
+Unstructured::Unstructured(const PointSet& points, std::uint64_t seed, Carry carry,
+                           const std::optional<GpuSteering>& steering)
     : cloud_(upload_shuffled(points, seed)), round_{.left = points.size()} {
   if (carry == Carry::indices && points.size() > 0) indices_.emplace(cloud_, slots_of(points, seed));
+  if (!steering) return;
+  steered_.emplace(*steering, cloud_.chunks().size());
+  steered_->restart(cloud_.size());
 }
 
 Selection SlotRound::next(const GpuCloud& cloud, std::size_t slots, std::uint32_t budget) {

@@ -7,6 +7,7 @@
 
 #include "render/method/index_carry.h"
 #include "render/method/method.h"
+#include "render/method/steered_round.h"
 #include "render/store/gpu_cloud.h"
 
 namespace stipple {
@@ -25,22 +26,36 @@ struct SlotRound {
 class Unstructured final : public Method {
  public:
   // Carried as vertices (S19) or indices (S18). Indices take ids below the number of points: throws Error for others.
-  Unstructured(const PointSet& points, std::uint64_t seed, Carry carry);
+  Unstructured(const PointSet& points, std::uint64_t seed, Carry carry,
+               const std::optional<GpuSteering>& steering = {});
 
   Carry carry() const override { return indices_ ? Carry::indices : Carry::vertices; }
   // The next stretch begins where the last ended, also for a new view.
-  void start_view(const View&) override { round_.left = cloud_.size(); }
+  void start_view(const View&) override {
+    round_.left = cloud_.size();
+    if (steered_) steered_->restart(cloud_.size());
+  }
+  void warm_up(const View&, const FeedbackTarget&) override {
+    if (steered_) steered_->next(cloud_, 0);
+  }
   void append_carried(const FeedbackTarget& last, std::vector<DrawItem>& items) override {
     if (indices_) indices_->append_items(last, items);
   }
-  Selection select(std::uint32_t budget) override { return round_.next(cloud_, cloud_.size(), budget); }
-  bool finished() const override { return round_.left == 0; }
+  Selection select(std::uint32_t budget) override {
+    return steered_ ? steered_->next(cloud_, budget) : round_.next(cloud_, cloud_.size(), budget);
+  }
+  SteeredRound* steered() override { return steered_ ? &*steered_ : nullptr; }
+  void frame_drawn(const FeedbackTarget&, std::size_t) override {
+    if (steered_) steered_->frame_drawn();
+  }
+  bool finished() const override { return steered_ ? steered_->finished() : round_.left == 0; }
   std::optional<std::vector<ColoredPoints>> colored() const override { return colored_points(cloud_); }
 
  private:
   GpuCloud cloud_;
   std::optional<IndexCarry> indices_;
-  SlotRound round_;  // of this view
+  SlotRound round_;                      // of this view
+  std::optional<SteeredRound> steered_;  // takes its place
 };
 
 }  // namespace stipple

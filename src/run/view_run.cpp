@@ -6,12 +6,6 @@
 #include <chrono>
 
 namespace stipple {
-namespace {
-
-// Where a frame-rate target starts from.
-constexpr std::uint32_t kFirstBudget = 100'000;
-
-}  // namespace
 
 bool ended(const Until& until, const FrameState& state) {
   return state.converged || (until.frames && state.frame >= *until.frames) ||
@@ -25,22 +19,24 @@ std::uint32_t largest_budget(const BudgetPolicy& policy) {
 TimedDrawing::TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& policy, const glm::ivec2& size,
                            std::size_t eyes)
     : renderer_(renderer), policy_(policy) {
-  if (policy.frames_per_second)
-    controller_.emplace(1000.0 / *policy.frames_per_second, kFirstBudget, BudgetController::Limits{});
+  if (policy.frames_per_second && !renderer.steered())
+    controller_.emplace(1000.0 / *policy.frames_per_second, BudgetController::kFirstBudget, BudgetController::Limits{});
   renderer.warm_up(size, eyes);
 }
 
 const FrameState& TimedDrawing::draw(const View& view, const std::function<void()>& before) {
   using Clock = std::chrono::steady_clock;
   ++state_.frame;
-  state_.budget = controller_ ? controller_->budget() : policy_.points;
+  const std::uint32_t budget = controller_ ? controller_->budget() : largest_budget(policy_);
   const auto start = Clock::now();
   if (before) before();
-  const FrameReport report = renderer_.draw(view, state_.budget);
+  renderer_.draw(view, budget);
   glFinish();
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  const FrameReport report = renderer_.await_report();
   if (controller_) controller_->frame_done(report.points_filled, ms);
 
+  state_.budget = report.budget;
   state_.milliseconds += ms;
   state_.points_drawn += report.points_filled;
   count_eyes(view.eyes());

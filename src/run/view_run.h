@@ -18,7 +18,8 @@ struct Until {
   std::optional<double> milliseconds;
 };
 
-// Points a frame: a fixed number, or what a frame-rate target allows.
+// Points a frame: a fixed number, or what a frame-rate target allows. Where the GPU steers to a target by itself, it is
+// asked (MethodOptions::steering).
 struct BudgetPolicy {
   std::uint32_t points = 1'000'000;
   std::optional<double> frames_per_second;

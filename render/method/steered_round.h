@@ -1,0 +1,85 @@
+// S19: Schuetz, Mandlburger, Otepka, Wimmer 2019, "Progressive Real-Time Rendering of One Billion Points Without
+// Hierarchical Acceleration Structures": the adaptive fill, whose budget is measured and spent on the GPU.
+#pragma once
+
+#include <cstdint>
+
+#include "render/frame/budget.h"
+#include "render/gpu/late_copy.h"
+#include "render/gpu/program.h"
+#include "render/gpu/time_stamp.h"
+#include "render/method/method.h"
+#include "render/store/gpu_cloud.h"
+
+namespace stipple {
+
+// Layout of State in shaders/steer.glsl.
+struct SteeringState {
+  // Those of BudgetController
+  double target_ms = 0.0;
+  double weight = 0.0;
+  double points = 0.0;
+  double ms = 0.0;
+  double points2 = 0.0;
+  double points_ms = 0.0;
+  std::uint32_t least = 0;
+  std::uint32_t most = 0;
+  std::uint32_t budget = 0;  // of the last frame
+  std::uint32_t unused = 0;
+
+  std::uint32_t cursor = 0;
+  std::uint32_t left = 0;
+  std::uint32_t round = 0;
+  std::uint32_t drawn = 0;
+  std::uint32_t total = 0;
+  std::uint32_t unused_too = 0;
+};
+
+// Before its first frame.
+SteeringState initial_state(const GpuSteering& steering);
+
+// Stretches of the slots of a shuffled cloud, one after the other, around its end to its beginning, as SlotRound's; how
+// long each is, the GPU finds by its own clock, the same way as BudgetController. Nothing is read back to draw.
+class SteeredRound {
+ public:
+  // Of a cloud of so many chunks. Throws Error when memory is refused.
+  SteeredRound(const GpuSteering& steering, std::size_t chunks);
+
+  // The first `slots` slots of the cloud, at least as many as before, are all to be drawn, from the end of the last
+  // stretch on.
+  void restart(std::size_t slots);
+  // The next stretch of the cloud, of at most `most` slots. Selection::points is 0: the CPU does not know. The frame
+  // begins with it, for the clock.
+  Selection next(const GpuCloud& cloud, std::uint32_t most);
+  // The frame of that stretch is drawn.
+  void frame_drawn();
+
+  // Takes what the GPU has told of past frames by now.
+  void hear();
+  // Waits until it has told all.
+  void await();
+  // It has told that all slots were drawn since the last restart.
+  bool finished() const { return slots_ == 0 || (told_.round == round_ && told_.left == 0); }
+  // Points of frames that it has told of since the last call.
+  std::uint64_t take_points();
+  // Of the last frame that it has told of: what its time allows.
+  std::uint32_t budget() const { return told_.budget; }
+
+ private:
+  void learn(const SteeringState& state);
+
+  std::uint32_t slots_ = 0;
+  std::uint32_t round_ = 0;
+  bool timed_ = false;  // the last stretch has time stamps
+  Program program_;
+  GpuBuffer state_;
+  GpuBuffer stamps_;
+  GpuBuffer commands_;
+  TimeStamp began_;
+  TimeStamp ended_;
+  LateCopy copy_;
+  SteeringState told_;
+  std::uint64_t points_ = 0;  // told of, and not taken
+};
+
+}  // namespace stipple
