@@ -120,6 +120,10 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size, std::size_t eyes) {
   eyes_[0].block.set(make_view_block(view.of_eye(0), grid_, point_size_));
   rasterizer_->draw(previous(), items);
   method_->warm_up(view, previous());
+  if (SteeredRound* const steered = method_->steered()) {
+    method_->select(0);
+    steered->drop_frame();
+  }
   std::vector<DrawItem> carried;
   append_carry(carried, 0);
   rasterizer_->draw(current(), carried);
@@ -160,6 +164,7 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   eyes_[0].block.bind();
   Selection selection = method_->select(budget);
   for (std::size_t eye = 0; eye < eyes_.size(); ++eye) draw_selected(selection.items, kept_ || by_what_is_carried, eye);
+  if (steered) steered->end_frame();
   blank_ = false;
   view_drawn_ = true;
   report_ = {.points_filled = selection.points, .converged = method_->finished(), .budget = budget};

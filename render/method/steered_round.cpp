@@ -30,13 +30,18 @@ void SteeredRound::restart(std::size_t slots) {
   ++round_;
 }
 
-Selection SteeredRound::next(const GpuCloud& cloud, std::uint32_t most) {
-  if (slots_ == 0) return {};
+void SteeredRound::begin_frame() {
+  if (std::exchange(begun_, true)) return;
+  timed_ = std::exchange(stamped_, false);
   if (timed_) {
     began_.write_to(stamps_, 0);
     ended_.write_to(stamps_, sizeof(std::uint64_t));
   }
   began_.take();
+}
+
+Selection SteeredRound::next(const GpuCloud& cloud, std::uint32_t most) {
+  begin_frame();
   program_.use();
   state_.bind_storage(0);
   stamps_.bind_storage(1);
@@ -65,9 +70,10 @@ Selection SteeredRound::next(const GpuCloud& cloud, std::uint32_t most) {
   return selection;
 }
 
-void SteeredRound::frame_drawn() {
+void SteeredRound::end_frame() {
+  if (!std::exchange(begun_, false)) return;
   ended_.take();
-  timed_ = true;
+  stamped_ = true;
 }
 
 void SteeredRound::hear() {

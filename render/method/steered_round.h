@@ -38,21 +38,23 @@ struct SteeringState {
 // Before its first frame.
 SteeringState initial_state(const GpuSteering& steering);
 
-// Stretches of the slots of a shuffled cloud, one after the other, around its end to its beginning, as SlotRound's; how
-// long each is, the GPU finds by its own clock, the same way as BudgetController. Nothing is read back to draw.
+// A SlotRound's stretches; how long each is, the GPU finds by its own clock, the same way as BudgetController. Nothing
+// is read back to draw.
 class SteeredRound {
  public:
   // Of a cloud of so many chunks. Throws Error when memory is refused.
   SteeredRound(const GpuSteering& steering, std::size_t chunks);
 
-  // The first `slots` slots of the cloud, at least as many as before, are all to be drawn, from the end of the last
-  // stretch on.
+  // As SlotRound's.
   void restart(std::size_t slots);
-  // The next stretch of the cloud, of at most `most` slots. Selection::points is 0: the CPU does not know. The frame
-  // begins with it, for the clock.
+  // For the clock: the frame begins, unless it has; next() has it begin, too.
+  void begin_frame();
+  // The next stretch of the cloud, of at most `most` slots. Selection::points is 0: the CPU does not know.
   Selection next(const GpuCloud& cloud, std::uint32_t most);
   // The frame of that stretch is drawn.
-  void frame_drawn();
+  void end_frame();
+  // It was none that tells how long frames take.
+  void drop_frame() { begun_ = false; }
 
   // Takes what the GPU has told of past frames by now.
   void hear();
@@ -70,7 +72,9 @@ class SteeredRound {
 
   std::uint32_t slots_ = 0;
   std::uint32_t round_ = 0;
-  bool timed_ = false;  // the last stretch has time stamps
+  bool begun_ = false;    // a frame has begun and not ended
+  bool stamped_ = false;  // the last frame's time stamps are taken
+  bool timed_ = false;    // and on their way to `stamps_`
   Program program_;
   GpuBuffer state_;
   GpuBuffer stamps_;

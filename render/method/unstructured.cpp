@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "octree/core/error.h"
@@ -30,23 +29,9 @@ std::vector<std::uint32_t> slots_of(const PointSet& points, std::uint64_t seed) 
 
 Unstructured::Unstructured(const PointSet& points, std::uint64_t seed, Carry carry,
                            const std::optional<GpuSteering>& steering)
-    : cloud_(upload_shuffled(points, seed)), round_{.left = points.size()} {
+    : cloud_(upload_shuffled(points, seed)), round_(steering, cloud_.chunks().size()) {
+  round_.restart(cloud_.size());
   if (carry == Carry::indices && points.size() > 0) indices_.emplace(cloud_, slots_of(points, seed));
-  if (!steering) return;
-  steered_.emplace(*steering, cloud_.chunks().size());
-  steered_->restart(cloud_.size());
-}
-
-Selection SlotRound::next(const GpuCloud& cloud, std::size_t slots, std::uint32_t budget) {
-  const std::size_t count = std::min<std::size_t>(budget, left);
-  const std::size_t before_end = std::min(count, slots - cursor);
-  Selection selection;
-  cloud.append_items(cursor, before_end, selection.items);
-  cloud.append_items(0, count - before_end, selection.items);
-  selection.points = count;
-  if (slots > 0) cursor = (cursor + count) % slots;
-  left -= count;
-  return selection;
 }
 
 }  // namespace stipple

@@ -34,7 +34,8 @@ WhileLoading::WhileLoading(PointArrivals& arrivals, Mode mode, const Options& op
   const bool as_s18 = mode == Mode::unstructured && options.method.carry_indices;
   const bool as_s19 = mode == Mode::unstructured && !options.method.carry_indices;
   arriving_ = std::make_unique<Arriving>(arrivals.total(), as_s19 ? ArrivalOrder::permuted : ArrivalOrder::displaced,
-                                         options.method.seed, as_s18 ? Carry::indices : Carry::vertices);
+                                         options.method.seed, as_s18 ? Carry::indices : Carry::vertices,
+                                         mode == Mode::unstructured ? options.method.steering : std::nullopt);
 }
 
 void WhileLoading::advance(ProgressiveRenderer& renderer) {

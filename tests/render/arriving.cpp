@@ -25,10 +25,15 @@ struct Kind {
   const char* name;
   ArrivalOrder order;
   Carry carry;
+  std::optional<GpuSteering> steering{};
 };
-constexpr Kind kKinds[] = {{"S19", ArrivalOrder::permuted, Carry::vertices},
-                           {"S18", ArrivalOrder::displaced, Carry::indices},
-                           {"hybrid", ArrivalOrder::displaced, Carry::vertices}};
+constexpr Kind kKinds[] = {
+    {"S19", ArrivalOrder::permuted, Carry::vertices},
+    {"S18", ArrivalOrder::displaced, Carry::indices},
+    {"hybrid", ArrivalOrder::displaced, Carry::vertices},
+    {"S19_steered", ArrivalOrder::permuted, Carry::vertices, GpuSteering{.target_ms = 1.0, .limits = {.least = 4'000}}},
+    {"S18_steered", ArrivalOrder::displaced, Carry::indices,
+     GpuSteering{.target_ms = 1.0, .limits = {.least = 4'000}}}};
 
 std::vector<std::uint32_t> read_ids(const GrowingCloud& cloud) {
   std::vector<std::uint32_t> ids;
@@ -116,7 +121,7 @@ class EachArrival : public testing::TestWithParam<std::tuple<int, RasterizerKind
   RasterizerKind rasterizer() const { return std::get<1>(GetParam()); }
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, EachArrival,
-                         testing::Combine(testing::Range(0, 3),
+                         testing::Combine(testing::Range(0, 5),
                                           testing::Values(RasterizerKind::points, RasterizerKind::compute)),
                          [](const auto& param) {
                            return std::string(kKinds[std::get<0>(param.param)].name) + "_" +
@@ -136,7 +141,7 @@ TEST_P(EachArrival, ConvergesToBruteForceWhileTheCameraMoves) {
   const PointSet points = in_file_order(dataset);
   View view = view_of(dataset, "oblique");
   const glm::dvec3 step = view.right * 3.0 + view.forward * 2.0;
-  Arriving arriving(points.size(), kind().order, 3, kind().carry);
+  Arriving arriving(points.size(), kind().order, 3, kind().carry, kind().steering);
   ProgressiveRenderer renderer(arriving, rasterizer(), points.grid);
   renderer.warm_up(view.size);
   EXPECT_FALSE(renderer.draw(view, 5'000).converged);
@@ -157,7 +162,7 @@ TEST_P(EachArrival, NothingThatWasSeenIsLostToAnArrival) {
   const Dataset& dataset = scene("city", kPoints);
   const PointSet points = in_file_order(dataset);
   const View view = view_of(dataset, "oblique");
-  Arriving arriving(points.size(), kind().order, 3, kind().carry);
+  Arriving arriving(points.size(), kind().order, 3, kind().carry, kind().steering);
   ProgressiveRenderer renderer(arriving, rasterizer(), points.grid);
   arriving.add(std::span(points.points).first(30'000), 0);
   for (int frame = 0; frame < 3; ++frame) renderer.draw(view, 10'000);
@@ -169,7 +174,7 @@ TEST_P(EachArrival, NothingThatWasSeenIsLostToAnArrival) {
 }
 
 TEST_P(EachArrival, AnEmptyCloudConverges) {
-  Arriving arriving(0, kind().order, 3, kind().carry);
+  Arriving arriving(0, kind().order, 3, kind().carry, kind().steering);
   ProgressiveRenderer renderer(arriving, rasterizer(), points_at({}).grid);
   EXPECT_TRUE(renderer.draw(front_view(2.0), 10).converged);
 }
