@@ -67,6 +67,16 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
       ->delimiter(',');
 }
 
+void add_steer_option(CLI::App& command, DrawOptions& options) {
+  command
+      .add_option("--steer", options.steer,
+                  "Who steers the budget to --fps: cpu (frames are timed from outside, in every mode) or gpu (mode "
+                  "unstructured, as Schuetz and others 2019: the GPU takes the time and sets the next frame's points "
+                  "itself, nothing is read back to draw; other modes are steered by the CPU still).")
+      ->needs("--fps")
+      ->capture_default_str();
+}
+
 RasterizerKind rasterizer_of(const DrawOptions& options) {
   const auto kind = rasterizer_named(options.raster);
   if (!kind) throw UsageError(fmt::format("--raster {}: expected points or compute", options.raster));
@@ -106,6 +116,10 @@ MethodOptions method_options_of(const DrawOptions& options) {
   if (options.density != "box-count" && options.density != "uniform")
     throw UsageError(fmt::format("--density {}: expected box-count or uniform", options.density));
   method.density = options.density == "uniform" ? DensityEstimate::uniform : DensityEstimate::box_count;
+  if (options.steer != "cpu" && options.steer != "gpu")
+    throw UsageError(fmt::format("--steer {}: expected cpu or gpu", options.steer));
+  if (options.steer == "gpu")
+    method.steering = GpuSteering{.target_ms = 1e3 / budget_of(options).frames_per_second.value()};
   for (const std::string& name : options.no_skip) {
     if (name == "occlusion")
       method.skip_occluded = false;

@@ -19,6 +19,7 @@ struct DrawOptions {
   std::string raster = "compute";
   std::string budget = "1M";
   std::string fps;
+  std::string steer = "cpu";
   std::string point_size = "1";
   std::string splat_size;
   std::string color;
@@ -32,13 +33,15 @@ struct DrawOptions {
 };
 
 void add_draw_options(CLI::App& command, DrawOptions& options);
+// --steer, for commands that time each frame. add_draw_options() must have been called.
+void add_steer_option(CLI::App& command, DrawOptions& options);
 
 // Their values. Each throws UsageError naming the option.
 RasterizerKind rasterizer_of(const DrawOptions& options);
 BudgetPolicy budget_of(const DrawOptions& options);
 PointSize point_size_of(const DrawOptions& options);
 MemoryLimits limits_of(const DrawOptions& options);
-// Seed, largest budget, limits and what hybrid may skip.
+// Seed, largest budget, limits, who steers, what hybrid may skip.
 MethodOptions method_options_of(const DrawOptions& options);
 // "converged", "frame:N" or "ms:T".
 Until parse_until(std::string_view text);

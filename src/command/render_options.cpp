@@ -27,6 +27,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
           "more of it while the view stands still).")
       ->capture_default_str();
   add_draw_options(command, options.draw);
+  add_steer_option(command, options.draw);
   CLI::Option* camera =
       command.add_option("--camera", options.camera,
                          R"(JSON file with "eye" and "target", and optionally "up" and "fov_deg"; or with such )"
@@ -82,7 +83,9 @@ void check_options(const RenderOptions& options, const std::optional<Mode>& mode
                     options.inputs.front()));
   rasterizer_of(options.draw);
   budget_of(options.draw);
-  method_options_of(options.draw);
+  if (method_options_of(options.draw).steering && mode != Mode::unstructured)
+    throw UsageError(
+        fmt::format("--steer gpu: the budget of mode {} is the CPU's; expected --mode unstructured", options.mode));
   color_choice_of(options.draw.color, options.color);
   if (shading_of(options) && !mode)
     throw UsageError("--edl: the reference is drawn on the CPU, and this is a pass on the GPU; choose another --mode");

@@ -61,6 +61,7 @@ Json stats_of(const RenderOptions& options, const Picture& picture, const Datase
              {"build_ms", dataset.build_seconds * 1e3}};
   const auto fps = budget_of(options.draw).frames_per_second;
   stats["target_fps"] = fps ? Json(*fps) : Json();
+  stats["steered_by"] = fps ? Json(options.draw.steer) : Json();
   stats.update(picture.stats);
   stats.update(dataset_provenance(dataset));
   stats.update(color_provenance(dataset.colors));

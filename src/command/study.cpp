@@ -113,6 +113,8 @@ StudySettings settings_of(const StudyArguments& options) {
   settings.background = parse_color("--background", options.draw.background);
   settings.flip_every_frame = options.flip_every_frame;
   settings.resume = options.resume;
+  if (settings.method.steering && std::ranges::find(settings.modes, Mode::unstructured) == settings.modes.end())
+    throw UsageError("--steer gpu: of the modes, none that was chosen has a budget of the GPU's; unstructured does");
   if (settings.clock == StudyClock::points && settings.budget.frames_per_second)
     throw UsageError("--fps: steers by time, which --clock points does without; expected --budget");
   return settings;
@@ -239,6 +241,7 @@ void add_study_command(CLI::App& app) {
       ->check(CLI::Range(2, 10'000))
       ->capture_default_str();
   add_draw_options(*command, options->draw);
+  add_steer_option(*command, options->draw);
   command
       ->add_option("--duration", options->duration,
                    "Seconds of drawing after which a curve of a still view ends, converged or not; with --clock points "

@@ -53,6 +53,7 @@ Json settings_json(const StudySettings& settings) {
           {"height", settings.size.y},
           {"budget_points", settings.budget.points},
           {"target_fps", fps ? Json(*fps) : Json()},
+          {"steered_by", fps ? Json(settings.method.steering ? "gpu" : "cpu") : Json()},
           {"duration_s", timed ? Json(settings.seconds) : Json()},
           {"path_frames", settings.path_frames},
           {"repeats", settings.repeats},

@@ -341,6 +341,9 @@ TEST_F(RenderCommand, WrongUsageNamesTheOption) {
   expect_wrong_usage("--budget 5M", "--budget");
   expect_wrong_usage("--fps 20 --budget 1k", "--fps");
   expect_wrong_usage("--fps 0", "--fps");
+  expect_wrong_usage("--mode unstructured --steer gpu", "--fps");
+  expect_wrong_usage("--mode unstructured --fps 20 --steer gpus", "--steer gpus");
+  expect_wrong_usage("--mode hybrid --fps 20 --steer gpu", "--mode unstructured");
   expect_wrong_usage("--point-size -1", "--point-size");
   expect_wrong_usage("--point-size 1e30", "point size 1e+30");
   expect_wrong_usage("--point-size 1e30 --raster points", "point size 1e+30");
@@ -426,6 +429,18 @@ TEST_F(RenderCommand, HybridLoadsATreeFromDisk) {
 
 TEST_F(RenderCommand, AFrameRateInsteadOfABudgetConvergesToo) {
   EXPECT_EQ(picture("a.png", "--fps 30").rgb, picture("b.png", "--budget 4M").rgb);
+}
+
+TEST_F(RenderCommand, TheGpuSteersToTheSamePicture) {
+  const Image all = picture("all.png", "--mode brute-force");
+  for (const char* more : {" --raster points", " --raster compute", " --carry index", " --while-loading"}) {
+    const std::string steered = "--mode unstructured --fps 200 --steer gpu --stats " + path("s.json") + more;
+    EXPECT_EQ(picture("steered.png", steered).rgb, all.rgb) << more;
+    const Json stats = json_file(path("s.json"));
+    EXPECT_EQ(stats.at("steered_by"), "gpu");
+    EXPECT_GE(stats.at("points_drawn"), kPoints);
+    EXPECT_TRUE(stats.at("converged"));
+  }
 }
 
 // The tree is ten times larger than both limits together, and ten times what drawing it adds to the process.

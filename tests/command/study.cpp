@@ -368,6 +368,7 @@ TEST_F(StudyCommand, WrongUsageNamesTheOption) {
                                                                            {"--repeat 0", "--repeat"},
                                                                            {"--color colour", "--color colour"},
                                                                            {"--fps 3", "--fps"},
+                                                                           {"--steer gpu", "--steer"},
                                                                            {"--regime fast", "--regime fast"},
                                                                            {"--clock sun", "--clock sun"},
                                                                            {"--path-frames 1", "--path-frames"}}) {

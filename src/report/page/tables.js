@@ -117,7 +117,7 @@ function drawSettings() {
     facts('Settings', [
       ['picture', `${settings.width} × ${settings.height}, points of ${settings.point_size} px, background ${settings.background}`],
       ['rasterizer', settings.raster], ['regimes', settings.regimes.join(', ')], ['clock', settings.clock],
-      ['budget a frame', settings.target_fps ? `steered to ${settings.target_fps} frames/s` : `${settings.budget_points.toLocaleString('en-US')} points`],
+      ['budget a frame', settings.target_fps ? `steered to ${settings.target_fps} frames/s${settings.steered_by === 'gpu' ? ', of unstructured by the GPU' : ''}` : `${settings.budget_points.toLocaleString('en-US')} points`],
       ['memory', settings.memory_bytes], ['GPU memory', settings.gpu_memory_bytes], ['repeats', settings.repeats],
       ['seed', settings.seed], ['time is', settings.time_is], ['warm-up', settings.warm_up], ['FLIP', settings.flip],
     ]),
