@@ -432,14 +432,18 @@ TEST_F(RenderCommand, AFrameRateInsteadOfABudgetConvergesToo) {
 }
 
 TEST_F(RenderCommand, TheGpuSteersToTheSamePicture) {
-  const Image all = picture("all.png", "--mode brute-force");
-  for (const char* more : {" --raster points", " --raster compute", " --carry index", " --while-loading"}) {
-    const std::string steered = "--mode unstructured --fps 200 --steer gpu --stats " + path("s.json") + more;
-    EXPECT_EQ(picture("steered.png", steered).rgb, all.rgb) << more;
-    const Json stats = json_file(path("s.json"));
-    EXPECT_EQ(stats.at("steered_by"), "gpu");
-    EXPECT_GE(stats.at("points_drawn"), kPoints);
-    EXPECT_TRUE(stats.at("converged"));
+  const std::string view = " --eye 564900,5933900,200 --target 565300,5934300,0";
+  for (const std::string raster : kRasters) {
+    const std::string common = view + " --raster " + raster;
+    const Image all = picture("all.png", "--mode brute-force" + common);
+    for (const std::string more : {"", " --carry index", " --while-loading"}) {
+      const std::string steered = "--mode unstructured --fps 200 --steer gpu --stats " + path("s.json") + more + common;
+      EXPECT_EQ(picture("steered.png", steered).rgb, all.rgb) << raster << more;
+      const Json stats = json_file(path("s.json"));
+      EXPECT_EQ(stats.at("steered_by"), "gpu");
+      EXPECT_GE(stats.at("points_drawn"), kPoints);
+      EXPECT_TRUE(stats.at("converged"));
+    }
   }
 }
 
