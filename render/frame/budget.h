@@ -6,8 +6,9 @@
 namespace stipple {
 
 // Steers the points streamed a frame to a frame-time target (T16, section 3.3). A frame costs a fixed part (reproject,
-// clear) and a part per point; both are followed by exponentially weighted least squares, so that the answer comes in a
-// few frames and follows a scene that changes. Pure: time comes in as an argument.
+// clear) and a part per point. A Kalman filter follows both: the load of the machine scales them together and changes
+// from frame to frame, how they share a frame's time changes slowly. docs/decisions/0017-frame-time.md has what was
+// measured. Pure: time comes in as an argument.
 class BudgetController {
  public:
   struct Limits {
@@ -20,21 +21,26 @@ class BudgetController {
 
   BudgetController(double target_ms, std::uint32_t first_budget, const Limits& limits);
 
-  // Points the next frame may draw.
+  // Points the next frame may draw: at most four times, at least a quarter of what the last one might.
   std::uint32_t budget() const { return budget_; }
-  // What a frame with `points` streamed points took.
+  // What a frame with `points` streamed points took. The fewer of its budget they are, the less is learnt from it; from
+  // a frame without points, nothing.
   void frame_done(std::uint64_t points, double milliseconds);
 
  private:
+  void begin(double points, double milliseconds);
+  void correct(double points, double milliseconds);
+
   double target_ms_;
   Limits limits_;
   std::uint32_t budget_;
-  // Weighted sums over past frames of 1, points, ms, points^2, points * ms
-  double weight_ = 0.0;
-  double points_ = 0.0;
-  double ms_ = 0.0;
-  double points2_ = 0.0;
-  double points_ms_ = 0.0;
+  double fixed_ = 0.0;  // ms
+  double slope_ = 0.0;  // ms a point; 0: no frame yet
+  // Their covariance
+  double fixed2_ = 0.0;
+  double fixed_slope_ = 0.0;
+  double slope2_ = 0.0;
+  int surprise_ = 0;  // 1, -1: the last frame took far more, far less than expected
 };
 
 }  // namespace stipple

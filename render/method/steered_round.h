@@ -17,22 +17,22 @@ namespace stipple {
 struct SteeringState {
   // Those of BudgetController
   double target_ms = 0.0;
-  double weight = 0.0;
-  double points = 0.0;
-  double ms = 0.0;
-  double points2 = 0.0;
-  double points_ms = 0.0;
+  double fixed = 0.0;
+  double slope = 0.0;
+  double fixed2 = 0.0;
+  double fixed_slope = 0.0;
+  double slope2 = 0.0;
   std::uint32_t least = 0;
   std::uint32_t most = 0;
   std::uint32_t budget = 0;  // of the last frame
-  std::uint32_t unused = 0;
+  std::int32_t surprise = 0;
 
   std::uint32_t cursor = 0;
   std::uint32_t left = 0;
   std::uint32_t round = 0;
   std::uint32_t drawn = 0;
   std::uint32_t total = 0;
-  std::uint32_t unused_too = 0;
+  std::uint32_t unused = 0;
 };
 
 // Before its first frame.
