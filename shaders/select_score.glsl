@@ -29,12 +29,12 @@ uint urgency_of(ClusterState state, Prospect prospect) {
 }
 
 void main() {
-  const float kLeast = 8.0;  // points: shorter stretches cost more to select than to draw
+  const float kLeast = 16.0;  // points: shorter stretches cost more to select than to draw
   uint i = invocation_index();
   if (i >= count) return;
   if (!all) i = open_clusters[i];
   ClusterState state = states[i];
-  uint rest = boxes[i].count - state.drawn;
+  uint rest = points_left(state, boxes[i].count);
   if (state.status != kOpen || rest == 0u) return;
   Prospect prospect = prospects[i];
   uint wish = min(uint(clamp(ceil(0.5 * prospect.pixels), kLeast, 65536.0)), rest);
