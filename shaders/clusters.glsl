@@ -7,6 +7,7 @@
 //   select_take    these clusters go on by a stretch each
 //   expand_stretch the places of a stretch's points
 //   measure_yield  how many of a stretch's points are seen once they are drawn
+//   test_shards    which shards of its cluster are behind what is drawn then
 struct ClusterBox {
   ivec3 low;    // tight, closed
   uint place;   // of its first point in its chunk's buffer, and the chunk above kPlaceBits
@@ -22,7 +23,8 @@ struct ClusterState {
   uint start;
   uint drawn;
   uint status;
-  float seen;  // share of its latest points that won their pixel: the yield
+  float seen;   // share of its latest points that won their pixel: the yield
+  uint hidden;  // shards that cannot be seen, a bit each: in the lower half by the first eye, in the upper by the second
 };
 
 // The tiles of the depth pyramid that a cluster may touch, pixels on level 0; x below y in 16 bits each.
@@ -33,12 +35,44 @@ struct Silhouette {
   uint level;
 };
 
+uint pack_tile(ivec2 tile) { return uint(tile.x) | uint(tile.y) << 16; }
+ivec2 unpack_tile(uint tile) { return ivec2(tile & 0xFFFFu, tile >> 16); }
+
 // What there is to win, as of the last test.
 struct Prospect {
   float pixels;    // that all of its points are estimated to cover
   float distance;  // of the nearest place along the line of sight, world units, that of the near plane at least
   float open;      // share of the places under its outline where it may be seen
 };
+
+const uint kAllShards = (1u << SHARDS) - 1u;
+
+// From ShardBoxes of render/store/shards.h and the corners of the cluster's box.
+void shard_box(uint packed_box, vec3 low, vec3 high, out vec3 from, out vec3 to) {
+  vec3 cell = (high - low) / 32.0;
+  from = low + cell * vec3(uvec3(packed_box, packed_box >> 5, packed_box >> 10) & 31u);
+  to = low + cell * vec3((uvec3(packed_box >> 15, packed_box >> 20, packed_box >> 25) & 31u) + 1u);
+}
+
+// Those that no eye can see, a bit each.
+uint hidden_shards(ClusterState state) { return state.hidden & state.hidden >> SHARDS; }
+
+// Points in the first places of a cluster, without those of hidden shards.
+uint points_before(uint places, uint hidden) {
+  uint open = ~hidden & kAllShards;
+  return places / SHARDS * uint(bitCount(open)) + uint(bitCount(open & ((1u << places % SHARDS) - 1u)));
+}
+
+// Points of a cluster of `count` that are to be drawn yet, without those of hidden shards.
+uint points_left(ClusterState state, uint count) {
+  uint hidden = hidden_shards(state);
+  if (hidden == 0u) return count - state.drawn;
+  // From here around the end to the start
+  uint from = state.start + state.drawn;
+  uint before_start = points_before(state.start, hidden);
+  if (from >= count) return before_start - points_before(from - count, hidden);
+  return before_start + points_before(count, hidden) - points_before(from, hidden);
+}
 
 const uint kOutside = 0u;
 const uint kOpen = 1u;

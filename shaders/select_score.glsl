@@ -16,29 +16,38 @@ layout(location = 1) uniform bool by_yield;
 layout(location = 2) uniform float near;  // of the view
 layout(location = 3) uniform bool all;    // not of the open clusters, but of all
 
-// New clusters first, near ones before far ones, sixteen classes to a doubling of the distance; then by yield, fifty
-// classes to a halving.
-uint urgency_of(ClusterState state, Prospect prospect) {
+// What another point of a cluster is expected to mend, 1 at most. Of those that may be seen each is as likely as the others to be
+// the one that its pixel shows in the end; and pixels that nothing covers yet are worth more. That alone is as good as what was
+// measured of the cluster's points where surfaces hide each other, and takes 15 % fewer until 40 dB over open land.
+float worth_of(ClusterState state, Prospect prospect, uint count) {
+  const float kUncovered = 2.0;  // times a pixel that shows the wrong point
+  float last = min(prospect.pixels / float(max(points_before(count, hidden_shards(state)), 1u)), 1.0);
+  float first = exp(-float(state.drawn) / prospect.pixels);
+  // What is nearly hidden waits: it may soon be hidden wholly
+  return mix(0.5, 1.0, state.seen) * prospect.open * (last + kUncovered * first) / (1.0 + kUncovered);
+}
+
+// New clusters first, near ones before far ones, sixteen classes to a doubling of the distance; then by worth, fifty classes to
+// a halving.
+uint urgency_of(ClusterState state, Prospect prospect, uint count) {
   const float kHalf = float(kUrgencies / 2u);
   if (state.drawn == 0u && (state.seen * prospect.open == 1.0 || !by_yield))
     return kUrgencies - 1u - uint(clamp(16.0 * log2(prospect.distance / near), 0.0, kHalf - 1.0));
   if (!by_yield) return 0u;
-  // What is nearly hidden waits: it may soon be hidden wholly
-  float share = state.seen * prospect.open;
-  return uint(clamp(kHalf - 1.0 + 50.0 * log2(max(share, 1e-6)), 0.0, kHalf - 1.0));
+  return uint(clamp(kHalf - 1.0 + 50.0 * log2(max(worth_of(state, prospect, count), 1e-6)), 0.0, kHalf - 1.0));
 }
 
 void main() {
-  const float kLeast = 8.0;  // points: shorter stretches cost more to select than to draw
+  const float kLeast = 16.0;  // points: shorter stretches cost more to select than to draw
   uint i = invocation_index();
   if (i >= count) return;
   if (!all) i = open_clusters[i];
   ClusterState state = states[i];
-  uint rest = boxes[i].count - state.drawn;
+  uint rest = points_left(state, boxes[i].count);
   if (state.status != kOpen || rest == 0u) return;
   Prospect prospect = prospects[i];
   uint wish = min(uint(clamp(ceil(0.5 * prospect.pixels), kLeast, 65536.0)), rest);
-  uint urgency = urgency_of(state, prospect);
+  uint urgency = urgency_of(state, prospect, boxes[i].count);
   atomicOr(wishing[i / BLOCK], 1u << i % BLOCK);
   wishes[i] = urgency << kWishBits | wish;
   atomicAdd(urgencies[urgency], wish);

@@ -25,14 +25,10 @@ void main() {
     uint slot = before.y + before.w;
     before += wish;
     uint end = before.x + min(before.z, totals.allowance);
-    uint drawn = states[i].drawn;
-    if (wish.y + wish.w > 0u) {
-      stretches[slot] = Stretch(i, begin, drawn, end - begin);
-      drawn += end - begin;
-      states[i].drawn = drawn;
-    }
+    bool taken = wish.y + wish.w > 0u;
+    if (taken) stretches[slot] = Stretch(i, begin, states[i].drawn, end - begin);
+    if (!taken || points_left(states[i], boxes[i].count) > end - begin) open |= 1u << i - first;
     begin = end;
-    if (drawn < boxes[i].count) open |= 1u << i - first;
   }
   wishing[block] = 0u;  // until they are asked again
   if (block == blocks - 1u) {

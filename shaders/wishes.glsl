@@ -10,7 +10,7 @@ layout(location = 0) uniform uint blocks;
 // Points and clusters above the cut (x, y) and at the cut (z, w).
 uvec4 wish_of(uint i) {
   uint wish = wishes[i] & kWishMask;
-  if (totals.factor > 1.0) wish = uint(min(float(wish) * totals.factor, float(boxes[i].count - states[i].drawn)));
+  if (totals.factor > 1.0) wish = uint(min(float(wish) * totals.factor, float(points_left(states[i], boxes[i].count))));
   int urgency = int(wishes[i] >> kWishBits);
   if (urgency < totals.cut) return uvec4(0u);
   return urgency > totals.cut ? uvec4(wish, 1u, 0u, 0u) : uvec4(0u, 0u, wish, 1u);

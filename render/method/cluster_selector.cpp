@@ -10,6 +10,7 @@ namespace {
 struct ClusterState {
   std::uint32_t start, drawn, status;
   float seen;
+  std::uint32_t hidden;
 };
 struct Stretch {
   std::uint32_t cluster, begin, first, count;
@@ -48,6 +49,7 @@ Program compile(const char* shader, std::vector<ShaderDefine> defines = {}) {
   defines.push_back({"MOST_CHUNKS", std::to_string(ClusterTable::kMostChunks)});
   defines.push_back({"LEVELS", std::to_string(ClusterTable::kLevels) + "u"});
   defines.push_back({"BLOCK", std::to_string(kBlock) + "u"});
+  defines.push_back({"SHARDS", std::to_string(kShards) + "u"});
   return Program::compute(shader, defines);
 }
 
@@ -65,8 +67,10 @@ ClusterSelector::ClusterSelector(const ClusterTable& table, const Options& optio
       take_(compile("select_take.glsl")),
       expand_(compile("expand_stretch.glsl")),
       yield_(compile("measure_yield.glsl")),
+      shards_from_image_(compile("test_shards.glsl")),
+      shards_from_attachment_(compile("test_shards.glsl", {{"FROM_ATTACHMENT"}})),
       states_(table.capacity * sizeof(ClusterState)),
-      open_clusters_(table.capacity * sizeof(std::uint32_t)),
+      open_clusters_(2 * table.capacity * sizeof(std::uint32_t)),
       wishes_(table.capacity * sizeof(std::uint32_t)),
       wishing_(blocks_of(table.capacity) * sizeof(std::uint32_t)),
       sight_(sizeof(Sight)),
@@ -88,7 +92,7 @@ ClusterSelector::Looks ClusterSelector::compile_looks(const std::vector<ShaderDe
 
 std::uint64_t ClusterSelector::bytes_for(std::uint64_t clusters, std::uint64_t budget) {
   return clusters *
-             (sizeof(ClusterState) + sizeof(Stretch) + 2 * sizeof(std::uint32_t) + kSilhouetteBytes + kProspectBytes) +
+             (sizeof(ClusterState) + sizeof(Stretch) + 3 * sizeof(std::uint32_t) + kSilhouetteBytes + kProspectBytes) +
          budget * sizeof(std::uint32_t);
 }
 
@@ -110,6 +114,8 @@ void ClusterSelector::warm_up(const View& view, const FeedbackTarget& frame) {
   small.boxes.write(0, &row, sizeof row);
   small.log_pixels = GpuBuffer(ClusterTable::kLevels * sizeof(float));
   small.log_pixels.fill(0);
+  small.shards = GpuBuffer(sizeof(ShardBoxes));
+  small.shards.fill(0);
   small.size = small.capacity = 1;
   table_ = &small;
   forget();
@@ -217,7 +223,7 @@ void ClusterSelector::test(const Tested& tested, std::uint32_t count, std::size_
   glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid.level_table()[0].first);
   if (eyes_open_ == 2) {
     glUniform1ui(1, eye == 0 ? 0 : tested.capacity);
-    glUniform1i(3, eye == 0 ? 0 : 1);
+    glUniform1i(4, eye == 0 ? 0 : 1);
   }
   dispatch_items(count, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -227,7 +233,7 @@ void ClusterSelector::add(std::span<const ClusterRun> runs) {
   std::vector<ClusterState> fresh;
   std::vector<std::uint32_t> clusters;
   for (const ClusterRun& run : runs) {
-    fresh.assign(run.count, {0, 0, kOpen, 1.0f});
+    fresh.assign(run.count, {0, 0, kOpen, 1.0f, 0});
     states_.write(run.first * sizeof(ClusterState), std::span<const ClusterState>(fresh));
     for (std::uint32_t i = 0; i < run.count; ++i) clusters.push_back(run.first + i);
   }
@@ -239,7 +245,7 @@ void ClusterSelector::add(std::span<const ClusterRun> runs) {
 
 void ClusterSelector::remove(std::span<const ClusterRun> runs) {
   for (const ClusterRun& run : runs) {
-    const std::vector<ClusterState> none(run.count, {0, 0, kOutside, 0.0f});
+    const std::vector<ClusterState> none(run.count, {0, 0, kOutside, 0.0f, 0});
     states_.write(run.first * sizeof(ClusterState), std::span<const ClusterState>(none));
   }
 }
@@ -375,7 +381,27 @@ void ClusterSelector::learn(const FeedbackTarget& frame, std::size_t eye) {
     }
   }
   see(frame, eye);
+  if (options_.skip_occluded) test_shards(eye);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void ClusterSelector::test_shards(std::size_t eye) {
+  const FeedbackTarget& drawn = *eyes_[eye].drawn;
+  const DepthPyramid& pyramid = eyes_[eye].pyramid;
+  (drawn.depth_storage() == DepthStorage::attachment ? shards_from_attachment_ : shards_from_image_).use();
+  drawn.depth().bind(0);
+  table_->boxes.bind_storage(0);
+  states_.bind_storage(1);
+  table_->shards.bind_storage(2);
+  pyramid.values().bind_storage(3);
+  sight_.bind_storage(5);
+  stretches_.bind_storage(7);
+  const std::uint32_t stretches = taken_.empty() ? 0 : taken_.back().first_stretch + taken_.back().stretches;
+  glUniform1ui(0, stretches);
+  glUniform1ui(1, eyes_open_ == 1 ? 3u : 1u << eye);
+  glUniform1i(3, DepthPyramid::kMostLevels);
+  glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid.level_table()[0].first);
+  dispatch_items(stretches, 64);
 }
 
 void ClusterSelector::see(const FeedbackTarget& frame, std::size_t eye) {

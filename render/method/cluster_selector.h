@@ -115,6 +115,7 @@ class ClusterSelector {
   void outline(const Tested& tested, std::uint32_t first, std::uint32_t count);
   void test(const Tested& tested, std::uint32_t count);
   void test(const Tested& tested, std::uint32_t count, std::size_t eye);
+  void test_shards(std::size_t eye);
   // Of all clusters, or of the first `count` open ones.
   void score(const View& view, std::uint32_t count, bool all);
   void rank(std::uint32_t budget);
@@ -137,8 +138,10 @@ class ClusterSelector {
   Program take_;
   Program expand_;
   Program yield_;
+  Program shards_from_image_;
+  Program shards_from_attachment_;
   GpuBuffer states_;
-  GpuBuffer open_clusters_;
+  GpuBuffer open_clusters_;  // after the last select(), and those added since, which may have replaced some of them
   GpuBuffer wishes_;
   GpuBuffer wishing_;
   GpuBuffer sight_;

@@ -12,7 +12,7 @@
 namespace stipple {
 namespace {
 
-constexpr std::uint64_t kClusterPoints = 128;  // docs/decisions/0011-hybrid.md
+constexpr std::uint64_t kClusterPoints = 256;  // docs/decisions/0011-hybrid.md
 
 std::uint64_t points_of_a_cluster(std::uint64_t points) {
   return std::max(kClusterPoints, points / ClusterTable::kMostClusters + 1);
@@ -56,6 +56,7 @@ ClusterTable upload_clusters(const PointSet& points, const ClusterCut& cut) {
   const std::span<const std::uint32_t> order(cut.order);
   std::vector<ClusterTable::Row> rows;
   std::vector<float> log_pixels;
+  std::vector<ShardBoxes> shards;
   std::uint32_t chunk_first = 0;
   for (std::size_t c = 0; c < cut.clusters.size(); ++c) {
     const ClusterCut::Piece& cluster = cut.clusters[c];
@@ -67,6 +68,7 @@ ClusterTable upload_clusters(const PointSet& points, const ClusterCut& cut) {
       while (rows.size() % ClusterTable::kBlock != 0) {
         rows.push_back({{}, last | 1u, {}, 0});
         log_pixels.insert(log_pixels.end(), ClusterTable::kLevels, 0.0f);
+        shards.emplace_back();
       }
     }
     const auto chunk = static_cast<std::uint32_t>(table.chunks.size());
@@ -74,6 +76,7 @@ ClusterTable upload_clusters(const PointSet& points, const ClusterCut& cut) {
                     cluster.count});
     const auto levels = cut.log_pixels.begin() + static_cast<std::ptrdiff_t>(c * ClusterTable::kLevels);
     log_pixels.insert(log_pixels.end(), levels, levels + ClusterTable::kLevels);
+    shards.push_back(cut.shards[c]);
   }
   if (points.size() > chunk_first) append_chunk(table, points, order.subspan(chunk_first));
   table.size = table.capacity = static_cast<std::uint32_t>(rows.size());
@@ -81,6 +84,8 @@ ClusterTable upload_clusters(const PointSet& points, const ClusterCut& cut) {
   table.boxes.write(0, std::span<const ClusterTable::Row>(rows));
   table.log_pixels = GpuBuffer(log_pixels.size() * sizeof(float));
   table.log_pixels.write(0, std::span<const float>(log_pixels));
+  table.shards = GpuBuffer(shards.size() * sizeof(ShardBoxes));
+  table.shards.write(0, std::span<const ShardBoxes>(shards));
   return table;
 }
 

@@ -31,11 +31,14 @@ ClusterCut cut_clusters(const Grid& grid, const GridBox& bounds, std::span<const
   ClusterCut cut;
   cut.order = std::move(octree.order);
   cut.log_pixels.resize(octree.clusters.size() * ClusterTable::kLevels);
+  cut.shards.resize(octree.clusters.size());
   for (const Cluster& cluster : octree.clusters) cut.clusters.push_back({cluster.first, cluster.count, cluster.box});
   tbb::parallel_for(std::size_t{0}, octree.clusters.size(), [&](std::size_t i) {
+    const Cluster& cluster = octree.clusters[i];
+    cut.shards[i] = deal_to_shards(std::span(cut.order).subspan(cluster.first, cluster.count), points, cluster.box);
     for (std::size_t level = 0; level < ClusterTable::kLevels; ++level) {
       const double pixel = root_edge * std::exp2(-static_cast<double>(level));
-      const double pixels = estimated_pixels(octree.clusters[i].profile, octree.cube.edge, pixel);
+      const double pixels = estimated_pixels(cluster.profile, octree.cube.edge, pixel);
       cut.log_pixels[i * ClusterTable::kLevels + level] = static_cast<float>(std::log2(std::max(pixels, 1.0)));
     }
   });

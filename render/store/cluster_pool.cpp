@@ -38,6 +38,7 @@ SlottedPoints slotted(const Grid& grid, std::span<const PackedPoint> points, std
   result.points.resize(cut.clusters.size() * kPoints);
   result.ids.resize(result.points.size());
   result.log_pixels = std::move(cut.log_pixels);
+  result.shards = std::move(cut.shards);
   for (const ClusterCut::Piece& cluster : cut.clusters) {
     const std::size_t to = result.rows.size() * kPoints;
     for (std::size_t i = 0; i < kPoints; ++i) {
@@ -55,6 +56,7 @@ ClusterPool::ClusterPool(std::uint32_t slots, double root_edge) : free_slots_(sl
   table_.root_edge = root_edge;
   table_.boxes = GpuBuffer(slots * sizeof(ClusterTable::Row));
   table_.log_pixels = GpuBuffer(slots * ClusterTable::kLevels * sizeof(float));
+  table_.shards = GpuBuffer(slots * sizeof(ShardBoxes));
   if (slots > 0) free_[0] = slots;
 }
 
@@ -111,6 +113,7 @@ void ClusterPool::write(const SlottedPoints& points, std::uint32_t from, const C
   constexpr std::size_t kFloats = ClusterTable::kLevels;
   table_.log_pixels.write(run.first * kFloats * sizeof(float),
                           std::span(points.log_pixels).subspan(from * kFloats, run.count * kFloats));
+  table_.shards.write(run.first * sizeof(ShardBoxes), std::span(points.shards).subspan(from, run.count));
 }
 
 void ClusterPool::free(std::span<const ClusterRun> runs) {

@@ -16,12 +16,13 @@ namespace stipple {
 // Points cut into clusters, each in a slot of its own: slot s has points [s * kPoints, s * kPoints + rows[s].count);
 // the last of them is repeated to its end, so that slots may be drawn whole.
 struct SlottedPoints {
-  static constexpr std::uint32_t kPoints = 128;  // of a slot: docs/decisions/0011-hybrid.md
+  static constexpr std::uint32_t kPoints = 256;  // of a slot: docs/decisions/0011-hybrid.md
 
   Buffer<PackedPoint> points;
   Buffer<std::uint32_t> ids;
   std::vector<ClusterTable::Row> rows;  // without `place`
   std::vector<float> log_pixels;        // ClusterTable::kLevels a slot
+  std::vector<ShardBoxes> shards;       // of each slot
 
   std::uint32_t slots() const { return static_cast<std::uint32_t>(rows.size()); }
   // How many so many points take.

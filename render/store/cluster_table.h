@@ -7,11 +7,12 @@
 
 #include "octree/tree/octree.h"
 #include "render/gpu/buffer.h"
+#include "render/store/shards.h"
 
 namespace stipple {
 
 // Points lie in chunks that any driver can address, those of a cluster together and shuffled, so that any prefix is an
-// even sample. A cluster is a row of each table.
+// even sample: see shards.h. A cluster is a row of each table.
 struct ClusterTable {
   static constexpr std::uint32_t kPlaceBits = 22;  // of Row::place
   static constexpr std::uint32_t kChunkPoints = 1u << kPlaceBits;
@@ -38,12 +39,13 @@ struct ClusterTable {
   GpuBuffer boxes;  // a Row a cluster
   // log2 of estimated_pixels() for pixels of root_edge / 2^level, level 0 to kMaxLevel: kLevels floats a cluster.
   GpuBuffer log_pixels;
+  GpuBuffer shards;            // ShardBoxes of each cluster
   std::uint32_t size = 0;      // rows in use
   std::uint32_t capacity = 0;  // rows there is room for
   double root_edge = 1.0;      // world units
 
   // Bytes of GPU memory that a cluster takes beside its points.
-  static constexpr std::uint64_t kRowBytes = sizeof(glm::ivec3) * 2 + 8 + kLevels * sizeof(float);
+  static constexpr std::uint64_t kRowBytes = sizeof(glm::ivec3) * 2 + 8 + kLevels * sizeof(float) + sizeof(ShardBoxes);
 };
 static_assert(sizeof(ClusterTable::Row) == 32);
 

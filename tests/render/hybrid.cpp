@@ -65,6 +65,21 @@ TEST_P(HybridRasterizer, AHiddenWallIsHardlyDrawn) {
   EXPECT_EQ(all.counts.nodes_occluded, 0u);
 }
 
+// A floor that recedes: a pixel shows what would fill thousands, and most of it lies behind the nearest of them, though
+// no cluster does.
+TEST_P(HybridRasterizer, ASurfaceSeenFromTheSideHidesPartsOfClusters) {
+  std::mt19937 random(9);
+  std::uniform_int_distribution<int> across(-500, 500);
+  std::uniform_int_distribution<int> along(0, 4'000);
+  std::vector<glm::ivec3> positions;
+  for (int i = 0; i < kWallPoints; ++i) positions.push_back({across(random), along(random), -300});
+  const PointSet points = points_at(positions);
+  const View view = front_view(1.5, {96, 54});
+  const Converged run = converge(points, GetParam(), view, 5'000);
+  EXPECT_TRUE(same_picture(run.picture, brute_force_picture(points, GetParam(), view)));
+  EXPECT_LT(run.points, 40'000u);  // 53,000 while clusters were hidden as a whole only
+}
+
 TEST_P(HybridRasterizer, ATieWithWhatIsDrawnIsNotHidden) {
   // All in one plane: every later point may have the lower id
   std::mt19937 random(8);

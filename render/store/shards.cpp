@@ -1,0 +1,99 @@
+#include "render/store/shards.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace stipple {
+namespace {
+
+// A point by its place in the shuffled cluster.
+struct Placed {
+  glm::ivec3 position;
+  std::uint32_t place;
+};
+
+GridBox box_of(std::span<const Placed> points) {
+  GridBox box;
+  for (const Placed& point : points) box.extend(point.position);
+  return box;
+}
+
+int longest_axis(const GridBox& box) {
+  const glm::dvec3 edges = glm::dvec3(box.max) - glm::dvec3(box.min);
+  if (edges.x >= edges.y && edges.x >= edges.z) return 0;
+  return edges.y >= edges.z ? 1 : 2;
+}
+
+std::uint32_t pack(const GridBox& shard, const GridBox& cluster) {
+  constexpr std::int64_t kCells = 32;
+  std::uint32_t packed = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t low = cluster.min[axis];
+    const std::int64_t edge = std::max<std::int64_t>(cluster.max[axis] - low, 1);
+    const auto cell = [&](std::int64_t x) {
+      return static_cast<std::uint32_t>(std::min((x - low) * kCells / edge, kCells - 1));
+    };
+    packed |= cell(shard.min[axis]) << 5 * axis | cell(shard.max[axis]) << (15 + 5 * axis);
+  }
+  return packed;
+}
+
+class Dealer {
+ public:
+  Dealer(std::span<const std::uint32_t> cluster, std::span<const PackedPoint> points, const GridBox& box)
+      : cluster_box_(box), points_(cluster.size()), shard_of_(cluster.size()) {
+    for (std::uint32_t i = 0; i < cluster.size(); ++i) points_[i] = {points[cluster[i]].position, i};
+    split(points_, 0, kShards);
+  }
+
+  const ShardBoxes& boxes() const { return boxes_; }
+  // Of the point at `place` of the shuffled cluster.
+  std::uint32_t shard_of(std::size_t place) const { return shard_of_[place]; }
+
+ private:
+  // Points of shards [0, end): place k is in shard k % kShards.
+  std::size_t points_before(std::uint32_t end) const {
+    return points_.size() / kShards * end + std::min<std::size_t>(points_.size() % kShards, end);
+  }
+
+  // Halves them across the longest edge of their box until each half is a shard.
+  void split(std::span<Placed> points, std::uint32_t first, std::uint32_t end) {
+    if (points.empty()) return;
+    const GridBox box = box_of(points);
+    if (end - first == 1) {
+      boxes_[first] = pack(box, cluster_box_);
+      for (const Placed& point : points) shard_of_[point.place] = static_cast<std::uint8_t>(first);
+      return;
+    }
+    const std::uint32_t middle = (first + end) / 2;
+    const std::size_t below = points_before(middle) - points_before(first);
+    if (below < points.size())
+      std::nth_element(
+          points.begin(), points.begin() + static_cast<std::ptrdiff_t>(below), points.end(),
+          [axis = longest_axis(box)](const Placed& a, const Placed& b) { return a.position[axis] < b.position[axis]; });
+    split(points.first(below), first, middle);
+    split(points.subspan(below), middle, end);
+  }
+
+  GridBox cluster_box_;
+  std::vector<Placed> points_;
+  std::vector<std::uint8_t> shard_of_;
+  ShardBoxes boxes_{};
+};
+
+}  // namespace
+
+ShardBoxes deal_to_shards(std::span<std::uint32_t> cluster, std::span<const PackedPoint> points, const GridBox& box) {
+  const Dealer dealer(cluster, points, box);
+  const std::vector<std::uint32_t> shuffled(cluster.begin(), cluster.end());
+  std::array<std::size_t, kShards> next;
+  for (std::uint32_t s = 0; s < kShards; ++s) next[s] = s;
+  for (std::size_t i = 0; i < shuffled.size(); ++i) {
+    std::size_t& place = next[dealer.shard_of(i)];
+    cluster[place] = shuffled[i];
+    place += kShards;
+  }
+  return dealer.boxes();
+}
+
+}  // namespace stipple

@@ -1,0 +1,24 @@
+// Dealing the points of a cluster to shards: boxes small enough to be behind what is drawn where the cluster is not.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "render/frame/point_set.h"
+
+namespace stipple {
+
+// A cluster's points lie in so many shards, neighbours each: the point at place k of the cluster is in shard
+// k % kShards, so that any prefix of a cluster is a sample of all of its shards. docs/decisions/0011-hybrid.md
+inline constexpr std::uint32_t kShards = 16;
+
+// The boxes of a cluster's shards in 32nds of the cluster's box, rounded outwards: from bit 0 on the first cell that
+// the shard touches, from bit 15 on the last, five bits an axis. 0 for shards without points.
+using ShardBoxes = std::array<std::uint32_t, kShards>;
+
+// Puts a shuffled cluster, the indices of whose points are given, in the order of its shards; those of a shard stay in
+// the order they were in. `box` holds them all. Shards are as large as each other but for one point.
+ShardBoxes deal_to_shards(std::span<std::uint32_t> cluster, std::span<const PackedPoint> points, const GridBox& box);
+
+}  // namespace stipple
