@@ -1,9 +1,9 @@
 #include "src/command/render_picture.h"
 
-#include <chrono>
 #include <utility>
 #include <vector>
 
+#include "octree/core/stopwatch.h"
 #include "render/gpu/context.h"
 #include "render/reference/reference.h"
 #include "src/cli/cli.h"
@@ -72,28 +72,17 @@ Json loading_json(LoadingDrawing& drawing, const FrameState& last, Json frames) 
 }  // namespace
 
 Picture draw_reference(const Dataset& dataset, const View& view, const PointSize& point_size) {
-  const auto start = std::chrono::steady_clock::now();
+  FrameState state{.frame = 1, .points_drawn = dataset.points.size(), .converged = true};
   std::vector<FrameData> frames;
-  std::vector<EyeState> eyes;
+  Stopwatch watch;
   for (std::size_t eye = 0; eye < view.eyes(); ++eye) {
     frames.push_back(render_reference(dataset.points, view.of_eye(eye), point_size));
-    eyes.push_back({.covered_pixels = frames.back().covered_pixels()});
+    state.eyes.push_back({.covered_pixels = frames.back().covered_pixels()});
+    state.covered_pixels += state.eyes.back().covered_pixels;
   }
-  Picture picture{side_by_side(std::move(frames)), {}};
-  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  picture.stats = {{"views", view.eyes()},
-                   {"points_drawn", dataset.points.size()},
-                   {"points_reprojected", 0},
-                   {"points_in_views", view.eyes() * dataset.points.size()},
-                   {"frames", 1},
-                   {"converged", true},
-                   {"ms", ms},
-                   {"covered_pixels", picture.frame.covered_pixels()},
-                   {"stereo", stereo_json(view, eyes)},
-                   {"nodes_visible", 0},
-                   {"nodes_occluded", 0},
-                   {"bytes_read", 0},
-                   {"gl_renderer", nullptr}};
+  state.milliseconds = watch.lap() * 1e3;
+  Picture picture{side_by_side(std::move(frames)), stats_of(view, state, {})};
+  picture.stats["gl_renderer"] = nullptr;
   return picture;
 }
 
