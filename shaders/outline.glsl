@@ -1,4 +1,4 @@
-// Which pixels a box may touch, and whether the depth drawn so far hides it. After projection.glsl and clusters.glsl.
+// Which pixels and tiles a box may touch, and how near it comes. After projection.glsl and clusters.glsl.
 
 // Rounding of projected coordinates, of the magnitudes that went into them: float has 6e-8, a few times.
 const float kRounding = 4e-6;
@@ -31,9 +31,9 @@ Outline outline_from(vec4 inwards, float nearest, float farthest, vec2 ndc_low, 
   return outline;
 }
 
-// Of a box from low to high, world units from an eye that looks in the direction of the bound view: by its corners.
-Outline outline_of(vec3 low, vec3 high) {
-  vec3 reach = max(abs(low), abs(high));
+// Of a box from low to high, world units from an eye that looks in the direction of the bound view: by its corners. `reach`: the
+// largest magnitudes that went into these, an axis each, which is what they are rounded by.
+Outline outline_of(vec3 low, vec3 high, vec3 reach) {
   vec3 slack = kRounding * vec3(dot(abs(view.right.xyz), reach), dot(abs(view.down.xyz), reach),
                                 dot(abs(view.forward.xyz), reach));
   const float kInfinity = uintBitsToFloat(0x7F800000u);
@@ -67,9 +67,9 @@ vec2 largest_ratio(vec2 high, float nearest, float farthest) {
 
 // The same in less time, by how far the box reaches along the axes of the view: nearly as tight for a box that is small for its
 // distance.
-Outline outline_of_small(vec3 low, vec3 high) {
+Outline outline_of_small(vec3 low, vec3 high, vec3 reach) {
   vec3 centre = 0.5 * (low + high);
-  vec3 half_edge = 0.5 * (high - low) + kRounding * max(abs(low), abs(high));
+  vec3 half_edge = 0.5 * (high - low) + kRounding * reach;
   vec3 at = vec3(dot(view.right.xyz, centre), dot(view.down.xyz, centre), dot(view.forward.xyz, centre));
   vec3 around = vec3(dot(abs(view.right.xyz), half_edge), dot(abs(view.down.xyz), half_edge),
                      dot(abs(view.forward.xyz), half_edge));
@@ -96,4 +96,3 @@ Silhouette silhouette_of(Outline outline) {
   return Silhouette(pack_tile(low >> level), pack_tile(high >> level),
                     view.near / outline.nearest * (1.0 + kDepthRounding), uint(level));
 }
-

@@ -48,10 +48,11 @@ void main() {
   state.seen = state.status == kOutside ? 1.0 : mix(state.status == kOccluded ? 0.0 : state.seen, 1.0, kFading);
   vec3 low = world_from_eye(box.low);
   vec3 high = world_from_eye(box.high);
-  Outline outline = outline_of(low, high);
+  vec3 reach = max(abs(low), abs(high));
+  Outline outline = outline_of(low, high, reach);
   bool outside = outline.outside;
 #ifdef TWO_EYES
-  Outline second = outline_of(low - to_second_eye, high - to_second_eye);
+  Outline second = outline_of(low - to_second_eye, high - to_second_eye, reach + abs(to_second_eye));
   silhouettes[second_silhouettes + i] = silhouette_of(second);
   outside = outside && second.outside;
 #endif

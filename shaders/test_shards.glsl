@@ -24,6 +24,7 @@ void main() {
   if (points_left(state, box.count) == 0u) return;
   vec3 low = world_from_eye(box.low);
   vec3 high = world_from_eye(box.high);
+  vec3 reach = max(abs(low), abs(high));
   uint hidden = 0u;
   for (uint left = ~hidden_shards(state) & kAllShards; left != 0u; left &= left - 1u) {
     uint shard = uint(findLSB(left));
@@ -31,7 +32,7 @@ void main() {
     vec3 from;
     vec3 to;
     shard_box(shards[i * SHARDS + shard], low, high, from, to);
-    Outline outline = outline_of_small(from, to);
+    Outline outline = outline_of_small(from, to, reach);
     if (outline.outside || open_share(silhouette_of(outline), 1u) == 0.0) hidden |= 1u << shard;
   }
   if ((eyes & 1u) != 0u) state.hidden |= hidden;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace stipple {
 namespace {
@@ -67,8 +68,7 @@ ClusterSelector::ClusterSelector(const ClusterTable& table, const Options& optio
       take_(compile("select_take.glsl")),
       expand_(compile("expand_stretch.glsl")),
       yield_(compile("measure_yield.glsl")),
-      shards_from_image_(compile("test_shards.glsl")),
-      shards_from_attachment_(compile("test_shards.glsl", {{"FROM_ATTACHMENT"}})),
+      test_shards_(compile_depth_test("test_shards.glsl", {})),
       states_(table.capacity * sizeof(ClusterState)),
       open_clusters_(2 * table.capacity * sizeof(std::uint32_t)),
       wishes_(table.capacity * sizeof(std::uint32_t)),
@@ -84,10 +84,21 @@ ClusterSelector::ClusterSelector(const ClusterTable& table, const Options& optio
 }
 
 ClusterSelector::Looks ClusterSelector::compile_looks(const std::vector<ShaderDefine>& defines) {
-  std::vector<ShaderDefine> from_attachment = defines;
-  from_attachment.push_back({"FROM_ATTACHMENT"});
-  return {compile("select_outline.glsl", defines), compile("select_test.glsl", defines),
-          compile("select_test.glsl", from_attachment)};
+  return {compile("select_outline.glsl", defines), compile_depth_test("select_test.glsl", defines)};
+}
+
+ClusterSelector::DepthTest ClusterSelector::compile_depth_test(const char* shader, std::vector<ShaderDefine> defines) {
+  Program from_image = compile(shader, defines);
+  defines.push_back({"FROM_ATTACHMENT"});
+  return {std::move(from_image), compile(shader, std::move(defines))};
+}
+
+void ClusterSelector::use(const DepthTest& pass, const Eye& eye) {
+  const bool attached = eye.drawn->depth_storage() == DepthStorage::attachment;
+  (attached ? pass.from_attachment : pass.from_image).use();
+  eye.drawn->depth().bind(0);
+  eye.pyramid.values().bind_storage(3);
+  glUniform4uiv(5, DepthPyramid::kMostLevels, &eye.pyramid.level_table()[0].first);
 }
 
 std::uint64_t ClusterSelector::bytes_for(std::uint64_t clusters, std::uint64_t budget) {
@@ -174,9 +185,8 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
 
   expand_.use();
   places_.bind_storage(2);
-  const std::uint32_t stretches = taken_.back().first_stretch + taken_.back().stretches;
-  glUniform1ui(0, stretches);
-  dispatch_items(stretches, 64);
+  glUniform1ui(0, stretches());
+  dispatch_items(stretches(), 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   return result;
 }
@@ -208,19 +218,14 @@ void ClusterSelector::test(const Tested& tested, std::uint32_t count) {
 }
 
 void ClusterSelector::test(const Tested& tested, std::uint32_t count, std::size_t eye) {
-  const FeedbackTarget& drawn = *eyes_[eye].drawn;
-  const DepthPyramid& pyramid = eyes_[eye].pyramid;
-  (drawn.depth_storage() == DepthStorage::attachment ? looks().test_from_attachment : looks().test_from_image).use();
-  drawn.depth().bind(0);
+  use(looks().test, eyes_[eye]);
   tested.states.bind_storage(1);
-  pyramid.values().bind_storage(3);
   open_clusters_.bind_storage(4);
   tested.sight.bind_storage(5);
   tested.silhouettes.bind_storage(6);
   tested.prospects.bind_storage(7);
   glUniform1ui(0, count);
   glUniform1i(2, tested.all ? 1 : 0);
-  glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid.level_table()[0].first);
   if (eyes_open_ == 2) {
     glUniform1ui(1, eye == 0 ? 0 : tested.capacity);
     glUniform1i(4, eye == 0 ? 0 : 1);
@@ -386,22 +391,16 @@ void ClusterSelector::learn(const FeedbackTarget& frame, std::size_t eye) {
 }
 
 void ClusterSelector::test_shards(std::size_t eye) {
-  const FeedbackTarget& drawn = *eyes_[eye].drawn;
-  const DepthPyramid& pyramid = eyes_[eye].pyramid;
-  (drawn.depth_storage() == DepthStorage::attachment ? shards_from_attachment_ : shards_from_image_).use();
-  drawn.depth().bind(0);
+  use(test_shards_, eyes_[eye]);
   table_->boxes.bind_storage(0);
   states_.bind_storage(1);
   table_->shards.bind_storage(2);
-  pyramid.values().bind_storage(3);
   sight_.bind_storage(5);
   stretches_.bind_storage(7);
-  const std::uint32_t stretches = taken_.empty() ? 0 : taken_.back().first_stretch + taken_.back().stretches;
-  glUniform1ui(0, stretches);
+  glUniform1ui(0, stretches());
   glUniform1ui(1, eyes_open_ == 1 ? 3u : 1u << eye);
   glUniform1i(3, DepthPyramid::kMostLevels);
-  glUniform4uiv(5, DepthPyramid::kMostLevels, &pyramid.level_table()[0].first);
-  dispatch_items(stretches, 64);
+  dispatch_items(stretches(), 64);
 }
 
 void ClusterSelector::see(const FeedbackTarget& frame, std::size_t eye) {

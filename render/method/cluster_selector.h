@@ -83,11 +83,15 @@ class ClusterSelector {
   static std::uint64_t bytes_for(std::uint64_t clusters, std::uint64_t budget);
 
  private:
+  // A pass that compares with the depth drawn, from wherever the rasterizer keeps it.
+  struct DepthTest {
+    Program from_image;
+    Program from_attachment;
+  };
   // The passes that look at clusters from one eye, or from two.
   struct Looks {
     Program outline;
-    Program test_from_image;
-    Program test_from_attachment;
+    DepthTest test;
   };
   struct Eye {
     DepthPyramid pyramid;
@@ -109,17 +113,22 @@ class ClusterSelector {
     GpuBuffer boxes, log_pixels, states, sight, silhouettes, prospects;
   };
 
+  static DepthTest compile_depth_test(const char* shader, std::vector<ShaderDefine> defines);
   static Looks compile_looks(const std::vector<ShaderDefine>& defines);
   const Looks& looks() const { return eyes_open_ == 2 ? *looks_of_two_ : looks_of_one_; }
   void close_eyes();
   void outline(const Tested& tested, std::uint32_t first, std::uint32_t count);
   void test(const Tested& tested, std::uint32_t count);
   void test(const Tested& tested, std::uint32_t count, std::size_t eye);
+  // Has this pass compare with what the eye has drawn.
+  static void use(const DepthTest& pass, const Eye& eye);
   void test_shards(std::size_t eye);
   // Of all clusters, or of the first `count` open ones.
   void score(const View& view, std::uint32_t count, bool all);
   void rank(std::uint32_t budget);
   Result read_back();
+  // Of those taken.
+  std::uint32_t stretches() const { return taken_.empty() ? 0 : taken_.back().first_stretch + taken_.back().stretches; }
 
   const ClusterTable* table_;
   Options options_;
@@ -138,8 +147,7 @@ class ClusterSelector {
   Program take_;
   Program expand_;
   Program yield_;
-  Program shards_from_image_;
-  Program shards_from_attachment_;
+  DepthTest test_shards_;
   GpuBuffer states_;
   GpuBuffer open_clusters_;  // after the last select(), and those added since, which may have replaced some of them
   GpuBuffer wishes_;

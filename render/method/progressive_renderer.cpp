@@ -167,9 +167,8 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   if (steered) steered->end_frame();
   blank_ = false;
   view_drawn_ = true;
-  report_ = {.points_filled = selection.points, .converged = method_->finished(), .budget = budget};
-  if (steered) report_.points_filled = steered->take_points();
-  return report_;
+  const std::uint64_t filled = steered ? steered->take_points() : selection.points;
+  return report_ = {.points_filled = filled, .converged = method_->finished(), .budget = budget};
 }
 
 FrameReport ProgressiveRenderer::await_report() {

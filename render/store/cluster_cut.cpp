@@ -35,7 +35,8 @@ ClusterCut cut_clusters(const Grid& grid, const GridBox& bounds, std::span<const
   for (const Cluster& cluster : octree.clusters) cut.clusters.push_back({cluster.first, cluster.count, cluster.box});
   tbb::parallel_for(std::size_t{0}, octree.clusters.size(), [&](std::size_t i) {
     const Cluster& cluster = octree.clusters[i];
-    cut.shards[i] = deal_to_shards(std::span(cut.order).subspan(cluster.first, cluster.count), points, cluster.box);
+    cut.shards[i] =
+        deal_to_shards(grid, std::span(cut.order).subspan(cluster.first, cluster.count), points, cluster.box);
     for (std::size_t level = 0; level < ClusterTable::kLevels; ++level) {
       const double pixel = root_edge * std::exp2(-static_cast<double>(level));
       const double pixels = estimated_pixels(cluster.profile, octree.cube.edge, pixel);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "octree/cloud/longest_axis.h"
+
 namespace stipple {
 namespace {
 
@@ -16,12 +18,6 @@ GridBox box_of(std::span<const Placed> points) {
   GridBox box;
   for (const Placed& point : points) box.extend(point.position);
   return box;
-}
-
-int longest_axis(const GridBox& box) {
-  const glm::dvec3 edges = glm::dvec3(box.max) - glm::dvec3(box.min);
-  if (edges.x >= edges.y && edges.x >= edges.z) return 0;
-  return edges.y >= edges.z ? 1 : 2;
 }
 
 std::uint32_t pack(const GridBox& shard, const GridBox& cluster) {
@@ -40,8 +36,9 @@ std::uint32_t pack(const GridBox& shard, const GridBox& cluster) {
 
 class Dealer {
  public:
-  Dealer(std::span<const std::uint32_t> cluster, std::span<const PackedPoint> points, const GridBox& box)
-      : cluster_box_(box), points_(cluster.size()), shard_of_(cluster.size()) {
+  Dealer(const Grid& grid, std::span<const std::uint32_t> cluster, std::span<const PackedPoint> points,
+         const GridBox& box)
+      : grid_(grid), cluster_box_(box), points_(cluster.size()), shard_of_(cluster.size()) {
     for (std::uint32_t i = 0; i < cluster.size(); ++i) points_[i] = {points[cluster[i]].position, i};
     split(points_, 0, kShards);
   }
@@ -68,13 +65,15 @@ class Dealer {
     const std::uint32_t middle = (first + end) / 2;
     const std::size_t below = points_before(middle) - points_before(first);
     if (below < points.size())
-      std::nth_element(
-          points.begin(), points.begin() + static_cast<std::ptrdiff_t>(below), points.end(),
-          [axis = longest_axis(box)](const Placed& a, const Placed& b) { return a.position[axis] < b.position[axis]; });
+      std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(below), points.end(),
+                       [axis = longest_axis(grid_, box)](const Placed& a, const Placed& b) {
+                         return a.position[axis] < b.position[axis];
+                       });
     split(points.first(below), first, middle);
     split(points.subspan(below), middle, end);
   }
 
+  Grid grid_;
   GridBox cluster_box_;
   std::vector<Placed> points_;
   std::vector<std::uint8_t> shard_of_;
@@ -83,8 +82,9 @@ class Dealer {
 
 }  // namespace
 
-ShardBoxes deal_to_shards(std::span<std::uint32_t> cluster, std::span<const PackedPoint> points, const GridBox& box) {
-  const Dealer dealer(cluster, points, box);
+ShardBoxes deal_to_shards(const Grid& grid, std::span<std::uint32_t> cluster, std::span<const PackedPoint> points,
+                          const GridBox& box) {
+  const Dealer dealer(grid, cluster, points, box);
   const std::vector<std::uint32_t> shuffled(cluster.begin(), cluster.end());
   std::array<std::size_t, kShards> next;
   for (std::uint32_t s = 0; s < kShards; ++s) next[s] = s;

@@ -19,6 +19,7 @@ using ShardBoxes = std::array<std::uint32_t, kShards>;
 
 // Puts a shuffled cluster, the indices of whose points are given, in the order of its shards; those of a shard stay in
 // the order they were in. `box` holds them all. Shards are as large as each other but for one point.
-ShardBoxes deal_to_shards(std::span<std::uint32_t> cluster, std::span<const PackedPoint> points, const GridBox& box);
+ShardBoxes deal_to_shards(const Grid& grid, std::span<std::uint32_t> cluster, std::span<const PackedPoint> points,
+                          const GridBox& box);
 
 }  // namespace stipple

@@ -52,7 +52,7 @@ Dealt dealt(const std::vector<PackedPoint>& points) {
   Dealt result{std::vector<std::uint32_t>(points.size()), {}};
   std::iota(result.order.begin(), result.order.end(), 0u);
   std::shuffle(result.order.begin(), result.order.end(), std::mt19937(6));
-  result.boxes = deal_to_shards(result.order, points, box_of(points));
+  result.boxes = deal_to_shards(Grid{}, result.order, points, box_of(points));
   return result;
 }
 
@@ -90,7 +90,7 @@ TEST(Shards, KeepTheOrderInWhichTheirPointsWere) {
   const std::vector<PackedPoint> points = random_points(250, -100, 100);
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
-  deal_to_shards(order, points, box_of(points));
+  deal_to_shards(Grid{}, order, points, box_of(points));
   for (std::size_t place = kShards; place < order.size(); ++place) EXPECT_LT(order[place - kShards], order[place]);
 }
 

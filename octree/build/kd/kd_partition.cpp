@@ -5,16 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "octree/cloud/longest_axis.h"
 #include "octree/store/tree_store.h"
 
 namespace stipple {
 namespace {
-
-int longest_axis(const Grid& grid, const GridBox& box) {
-  const glm::dvec3 size = (glm::dvec3(box.max) - glm::dvec3(box.min)) * grid.scale;
-  if (size.x >= size.y && size.x >= size.z) return 0;
-  return size.y >= size.z ? 1 : 2;
-}
 
 // Makes the node's box tight, and orders its points for its children. Returns how many are the lower child's; 0 for
 // a leaf.
