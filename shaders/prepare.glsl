@@ -1,13 +1,10 @@
 // S19's prepare pass: the visible points of a finished frame become whole vertices in a buffer, drawn first in the next
 // frame. A work group collects its own pixels before it takes room in the buffer.
-#include "packing.glsl"
+#include "vertex_list.glsl"
 layout(local_size_x = 16, local_size_y = 8) in;
 
 layout(binding = 0) uniform isampler2D previous_points;
 layout(binding = 1) uniform usampler2D previous_ids;
-layout(std430, binding = 0) writeonly buffer CarriedPoints { ivec4 carried_points[]; };
-layout(std430, binding = 1) writeonly buffer CarriedIds { uint carried_ids[]; };
-layout(std430, binding = 2) buffer Command { IndirectCommand command; };
 
 shared uint group_count;
 shared uint group_first;
@@ -22,9 +19,7 @@ void main() {
   uint place = 0u;
   if (id != kNoPoint) place = atomicAdd(group_count, 1u);
   barrier();
-  if (gl_LocalInvocationIndex == 0u) group_first = atomicAdd(command.count, group_count);
+  if (gl_LocalInvocationIndex == 0u) group_first = atomicAdd(list_command.count, group_count);
   barrier();
-  if (id == kNoPoint) return;
-  carried_points[group_first + place] = texelFetch(previous_points, pixel, 0);
-  carried_ids[group_first + place] = id;
+  if (id != kNoPoint) put_into_list(group_first + place, texelFetch(previous_points, pixel, 0), id);
 }

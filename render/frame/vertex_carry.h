@@ -2,8 +2,7 @@
 #pragma once
 
 #include "render/frame/feedback_target.h"
-#include "render/gpu/program.h"
-#include "render/raster/rasterizer.h"
+#include "render/raster/vertex_list.h"
 
 namespace stipple {
 
@@ -15,14 +14,11 @@ class VertexCarry {
   // The prepare pass: collects the points of a finished frame.
   void prepare(const FeedbackTarget& frame);
   // What prepare() collected.
-  CarriedVertices vertices() const { return {&points_, &ids_, &command_}; }
+  CarriedVertices vertices() const { return list_.vertices(); }
 
  private:
-  GpuBuffer points_;
-  GpuBuffer ids_;
-  GpuBuffer command_;
+  VertexList list_;
   Program prepare_;
-  Program finish_;
 };
 
 // Pixels that show a point. Waits for the GPU: not for timed parts.

@@ -52,4 +52,11 @@ void GpuBuffer::bind_texels(GLuint unit, GLenum format) const {
   glBindTextureUnit(unit, texels_.name());
 }
 
+void check_shader_storage(std::size_t bytes, std::string_view what, std::string_view remedy) {
+  GLint64 limit = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  if (bytes > static_cast<std::size_t>(limit))
+    throw Error(fmt::format("{} take {} bytes; this driver's shaders reach {}. {}", what, bytes, limit, remedy));
+}
+
 }  // namespace stipple

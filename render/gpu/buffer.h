@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "render/gpu/handle.h"
 
@@ -44,5 +45,8 @@ class GpuBuffer {
   mutable Handle<gl_delete::texture> texels_;  // a view of it, once it was asked for
   std::size_t bytes_ = 0;
 };
+
+// Throws Error when shaders do not reach so many bytes of a buffer: "`what` take ... `remedy`".
+void check_shader_storage(std::size_t bytes, std::string_view what, std::string_view remedy);
 
 }  // namespace stipple

@@ -15,12 +15,8 @@ Program compile_pass(std::vector<ShaderDefine> defines) {
 }
 
 GpuBuffer upload_slots(std::span<const std::uint32_t> slot_of) {
-  GLint64 limit = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  if (slot_of.size_bytes() > static_cast<std::size_t>(limit))
-    throw Error(
-        fmt::format("the places of {} points take {} bytes; this driver's shaders reach {}. Use --carry vertex.",
-                    slot_of.size(), slot_of.size_bytes(), limit));
+  check_shader_storage(slot_of.size_bytes(), fmt::format("the places of {} points", slot_of.size()),
+                       "Use --carry vertex.");
   GpuBuffer buffer(slot_of.size_bytes());
   buffer.write(0, slot_of);
   return buffer;

@@ -32,13 +32,8 @@ Program compile_insertion(std::size_t bound, std::vector<ShaderDefine> defines) 
 }
 
 GpuBuffer room_for_slots(std::size_t points) {
-  GLint64 limit = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   const std::size_t bytes = points * sizeof(std::uint32_t);
-  if (bytes > static_cast<std::size_t>(limit))
-    throw Error(
-        fmt::format("the places of {} points take {} bytes; this driver's shaders reach {}. Use --carry vertex.",
-                    points, bytes, limit));
+  check_shader_storage(bytes, fmt::format("the places of {} points", points), "Use --carry vertex.");
   return GpuBuffer(bytes);
 }
 

@@ -7,6 +7,7 @@
 
 #include "render/method/brute_force.h"
 #include "render/method/progressive_renderer.h"
+#include "render/raster/compute_rasterizer.h"
 #include "render/reference/reference.h"
 #include "tests/render/gl_test.h"
 
@@ -92,25 +93,25 @@ TEST_P(EachRasterizer, TiesGoToTheLowestIdEvenWhenThereAreMoreThanNotes) {
 }
 
 // Part after part of the points, each added to the picture of those before.
-FrameData draw_in_parts(const PointSet& points, RasterizerKind kind, const View& view, std::uint32_t parts,
+FrameData draw_in_parts(const PointSet& points, Rasterizer& rasterizer, const View& view, std::uint32_t parts,
                         double point_size) {
   GpuBuffer all(points.size() * sizeof(PackedPoint));
   all.write(0, std::span<const PackedPoint>(points.points));
   GpuBuffer ids(points.size() * sizeof(std::uint32_t));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::uint32_t id = points.id(i);
-    ids.write(i * sizeof id, &id, sizeof id);
-  }
-  const auto rasterizer = make_rasterizer(kind, point_size != 1.0);
-  FeedbackTarget target(view.size, rasterizer->depth_storage());
+  ids.write(0, std::span<const std::uint32_t>(points.ids));
+  FeedbackTarget target(view.size, rasterizer.depth_storage());
   ViewUniforms uniforms;
   uniforms.set(make_view_block(view, points.grid, point_size));
   const auto size = static_cast<std::uint32_t>(points.size());
   for (std::uint32_t part = 0; part < parts; ++part) {
     const std::uint32_t first = size / parts * part;
     const std::uint32_t end = part + 1 == parts ? size : first + size / parts;
-    const DrawItem item = PointRange{.points = &all, .ids = &ids, .first = first, .count = end - first};
-    rasterizer->add(target, {&item, 1});
+    const DrawItem item = PointRange{.points = &all,
+                                     .ids = points.ids.empty() ? nullptr : &ids,
+                                     .first = first,
+                                     .count = end - first,
+                                     .first_id = first};
+    rasterizer.add(target, {&item, 1});
   }
   return target.read(view.near);
 }
@@ -119,16 +120,23 @@ TEST_P(EachRasterizer, PartsAddUpToThePictureOfAll) {
   const View view = front_view(3.0);
   for (const double point_size : {1.0, 3.0}) {
     const PointSet points = in_other_order(random_points(20'000, 700, 3), 5);
-    EXPECT_TRUE(same_picture(draw_in_parts(points, GetParam(), view, 7, point_size), draw(points, view, point_size)));
+    const auto rasterizer = make_rasterizer(GetParam(), point_size != 1.0);
+    EXPECT_TRUE(same_picture(draw_in_parts(points, *rasterizer, view, 7, point_size), draw(points, view, point_size)));
   }
 }
 
-TEST_P(EachRasterizer, PartsOfEqualDepthAddUpToThePictureOfAll) {
+// 4,000 points in 200 places of two depths.
+PointSet many_ties() {
   std::vector<glm::ivec3> positions;
   for (int i = 0; i < 4'000; ++i) positions.push_back({(i * 37) % 400, 100 * (i % 2), 0});
-  const PointSet points = in_other_order(points_at(positions), 6);
+  return in_other_order(points_at(positions), 6);
+}
+
+TEST_P(EachRasterizer, PartsOfEqualDepthAddUpToThePictureOfAll) {
+  const PointSet points = many_ties();
   const View view = front_view(2.0);
-  EXPECT_TRUE(same_picture(draw_in_parts(points, GetParam(), view, 9, 1.0), draw(points, view)));
+  const auto rasterizer = make_rasterizer(GetParam(), false);
+  EXPECT_TRUE(same_picture(draw_in_parts(points, *rasterizer, view, 9, 1.0), draw(points, view)));
 }
 
 TEST_P(EachRasterizer, SplatsCoverTheirSquare) {
@@ -158,6 +166,31 @@ bool may_be_next_door(const PointSet& by_id, const View& view, std::uint32_t id,
   const double px = 0.5 * view.size.x * (1.0 + glm::dot(view.right, r) * view.cot_x / depth);
   const double py = 0.5 * view.size.y * (1.0 - glm::dot(view.up, r) * view.cot_y / depth);
   return px < x + kMargin || px > x + 1 - kMargin || py < y + kMargin || py > y + 1 - kMargin;
+}
+
+void expect_draws_as_in_two_passes(bool keys, std::size_t batch) {
+  const View view = front_view(2.0);
+  const PointSet random = random_points(20'000, 700, 3);
+  for (const PointSet& points : {random, in_other_order(random, 5), many_ties()}) {
+    for (const double point_size : {1.0, 3.0}) {
+      ComputeRasterizer two_passes(point_size != 1.0, false);
+      ComputeRasterizer other(point_size != 1.0, keys, batch);
+      for (const std::uint32_t parts : {1u, 7u})
+        EXPECT_TRUE(same_picture(draw_in_parts(points, other, view, parts, point_size),
+                                 draw_in_parts(points, two_passes, view, 1, point_size)));
+    }
+  }
+}
+
+TEST(ComputeRasterizer, SmallBatchesChangeNothing) {
+  expect_draws_as_in_two_passes(false, 1000);
+}
+
+// Mesa's software renderer has these when it is told to (tests/CMakeLists.txt).
+TEST(ComputeRasterizer, SixtyFourBitAtomicsChangeNothing) {
+  if (!has_64_bit_atomics()) GTEST_SKIP() << "this driver has no 64-bit atomics";
+  expect_draws_as_in_two_passes(true, ComputeRasterizer::kBatch);
+  expect_draws_as_in_two_passes(true, 1000);
 }
 
 TEST(ComputeRasterizer, DiffersFromTheReferenceInAThousandthOfThePixelsAndOnlyByRounding) {
