@@ -15,13 +15,20 @@ void main() {
   Stretch stretch = stretches[s];
   uint first = boxes[stretch.cluster].place & kPlaceMask;
   uint size = boxes[stretch.cluster].count;
-  uint from = states[stretch.cluster].start + stretch.first;
-  uint hidden = hidden_shards(states[stretch.cluster]);
-  uint k = 0u;
-  for (uint points = 0u; points < stretch.count; ++k) {
-    uint place = from + k;
+  uint open = ~hidden_shards(states[stretch.cluster]) & kAllShards;
+  uint first_open = uint(findLSB(open));
+  uint place = states[stretch.cluster].start + stretch.first;
+  if (place >= size) place -= size;
+  uint passed = 0u;
+  for (uint k = 0u; k < stretch.count; ++k) {
+    // On to the next place of an open shard, around the end of the circle
+    uint step = uint(findLSB((open | open << SHARDS) >> place % SHARDS));
+    if (place + step >= size) step = size - place + first_open;
+    passed += step + 1u;
+    place += step;
     if (place >= size) place -= size;
-    if ((hidden >> place % SHARDS & 1u) == 0u) places[stretch.begin + points++] = first + place;
+    places[stretch.begin + k] = first + place;
+    if (++place == size) place = 0u;
   }
-  states[stretch.cluster].drawn = stretch.first + k;
+  states[stretch.cluster].drawn = stretch.first + passed;
 }

@@ -27,20 +27,20 @@ float open_share(Silhouette silhouette, uint enough) {
   uint open = 0u;
   uint seen = 0u;
   ivec2 at = low;
-  while (at.y <= high.y && open < enough) {
-    if (pixels) {
-      bool right = at.x < high.x;
-      bool below = at.y < high.y;
-      bvec4 inside = bvec4(below, right && below, right, true);
-      bvec4 nearer = lessThanEqual(drawn_at(at), vec4(silhouette.depth));
-      open += count_of(bvec4(uvec4(nearer) & uvec4(inside)));
-      seen += count_of(inside);
-    } else {
-      if (farthest[level.x + uint(at.y) * level.y + uint(at.x)] <= silhouette.depth) ++open;
-      ++seen;
-    }
-    at.x += pixels ? 2 : 1;
-    if (at.x > high.x) at = ivec2(low.x, at.y + (pixels ? 2 : 1));
+  while (pixels && at.y <= high.y && open < enough) {
+    bool right = at.x < high.x;
+    bool below = at.y < high.y;
+    bvec4 inside = bvec4(below, right && below, right, true);
+    bvec4 nearer = lessThanEqual(drawn_at(at), vec4(silhouette.depth));
+    open += count_of(bvec4(uvec4(nearer) & uvec4(inside)));
+    seen += count_of(inside);
+    at.x += 2;
+    if (at.x > high.x) at = ivec2(low.x, at.y + 2);
+  }
+  while (!pixels && at.y <= high.y && open < enough) {
+    if (farthest[level.x + uint(at.y) * level.y + uint(at.x)] <= silhouette.depth) ++open;
+    ++seen;
+    if (++at.x > high.x) at = ivec2(low.x, at.y + 1);
   }
   return float(open) / float(seen);
 }

@@ -34,7 +34,7 @@ std::uint32_t CoverageCounter::count(const Texture2D& ids) {
   counter_.bind_storage(0);
   program_.use();
   ids.bind(1);
-  dispatch_pixels(ids.size());
+  glDispatchCompute(static_cast<GLuint>(ids.size().x + 63) / 64, static_cast<GLuint>(ids.size().y + 15) / 16, 1);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   std::uint32_t covered = 0;
   counter_.read(0, &covered, sizeof covered);
