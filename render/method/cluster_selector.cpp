@@ -38,15 +38,6 @@ constexpr std::size_t kProspectBytes = 3 * sizeof(float);
 constexpr std::size_t kSilhouetteBytes = 4 * sizeof(std::uint32_t);
 constexpr std::size_t kMostProbed = 4096;
 
-// Points of a stretch, unless its cluster has fewer left: shorter ones cost more to select than to draw. Where the budget
-// makes more than so many of them, twice as long ones.
-constexpr std::uint32_t kLeastStretch = 16;
-constexpr std::uint32_t kMostStretches = 32768;
-
-std::uint32_t least_stretch(std::uint32_t budget) {
-  return std::clamp(budget / kMostStretches, kLeastStretch, 2 * kLeastStretch);
-}
-
 // Clusters that one invocation of the scan works off: a bit each in a word.
 constexpr std::size_t kBlock = ClusterTable::kBlock;
 static_assert(kBlock == 32);
@@ -186,9 +177,8 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
   }
   added_ = 0;
   if (sees_depth()) test(tested, open_);
-  budget = std::min(budget, options_.largest_budget);
-  score(view, budget, new_view ? table_->size : open_, new_view);
-  rank(budget);
+  score(view, new_view ? table_->size : open_, new_view);
+  rank(std::min(budget, options_.largest_budget));
   Result result = read_back();
   open_ = result.open;
   taken_ = result.chunks;
@@ -318,7 +308,7 @@ std::vector<bool> ClusterSelector::hidden(std::span<const GridBox> boxes) {
   return result;
 }
 
-void ClusterSelector::score(const View& view, std::uint32_t budget, std::uint32_t count, bool all) {
+void ClusterSelector::score(const View& view, std::uint32_t count, bool all) {
   summary_.fill(0);
   table_->boxes.bind_storage(0);
   states_.bind_storage(1);
@@ -332,7 +322,6 @@ void ClusterSelector::score(const View& view, std::uint32_t budget, std::uint32_
   glUniform1i(1, options_.by_yield ? 1 : 0);
   glUniform1f(2, static_cast<float>(view.near));
   glUniform1i(3, all ? 1 : 0);
-  glUniform1ui(4, least_stretch(budget));
   dispatch_items(count, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }

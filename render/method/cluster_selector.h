@@ -124,7 +124,7 @@ class ClusterSelector {
   static void use(const DepthTest& pass, const Eye& eye);
   void test_shards(std::size_t eye);
   // Of all clusters, or of the first `count` open ones.
-  void score(const View& view, std::uint32_t budget, std::uint32_t count, bool all);
+  void score(const View& view, std::uint32_t count, bool all);
   void rank(std::uint32_t budget);
   Result read_back();
   // Of those taken.
