@@ -1,25 +1,20 @@
 // S19's prepare pass: the visible points of a finished frame become whole vertices in a buffer, drawn first in the next
-// frame. A work group collects its own pixels before it takes room in the buffer.
+// frame. An invocation takes room for all of a column and then turns to those alone: barriers would cost more.
 #include "vertex_list.glsl"
-layout(local_size_x = 16, local_size_y = 8) in;
+#include "column.glsl"
 
 layout(binding = 0) uniform isampler2D previous_points;
 layout(binding = 1) uniform usampler2D previous_ids;
 
-shared uint group_count;
-shared uint group_first;
-
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  bool inside = all(lessThan(pixel, textureSize(previous_ids, 0)));
-  uint id = inside ? texelFetch(previous_ids, pixel, 0).x : kNoPoint;
-
-  if (gl_LocalInvocationIndex == 0u) group_count = 0u;
-  barrier();
-  uint place = 0u;
-  if (id != kNoPoint) place = atomicAdd(group_count, 1u);
-  barrier();
-  if (gl_LocalInvocationIndex == 0u) group_first = atomicAdd(list_command.count, group_count);
-  barrier();
-  if (id != kNoPoint) put_into_list(group_first + place, texelFetch(previous_points, pixel, 0), id);
+  ivec2 first = first_of_column();
+  int rows = rows_of_column(textureSize(previous_ids, 0));
+  uint shown = 0u;  // a bit a row
+  for (int y = 0; y < rows; ++y) shown |= uint(texelFetch(previous_ids, first + ivec2(0, y), 0).x != kNoPoint) << y;
+  if (shown == 0u) return;
+  uint place = atomicAdd(list_command.count, uint(bitCount(shown)));
+  for (; shown != 0u; shown &= shown - 1u) {
+    ivec2 pixel = first + ivec2(0, findLSB(shown));
+    put_into_list(place++, texelFetch(previous_points, pixel, 0), texelFetch(previous_ids, pixel, 0).x);
+  }
 }

@@ -23,7 +23,7 @@ void VertexCarry::prepare(const FeedbackTarget& frame) {
   prepare_.use();
   frame.points().bind(0);
   frame.carried_ids().bind(1);
-  dispatch_pixels(frame.size());
+  dispatch_columns(frame.size());
   list_.finish();
 }
 
@@ -34,7 +34,7 @@ std::uint32_t CoverageCounter::count(const Texture2D& ids) {
   counter_.bind_storage(0);
   program_.use();
   ids.bind(1);
-  glDispatchCompute(static_cast<GLuint>(ids.size().x + 63) / 64, static_cast<GLuint>(ids.size().y + 15) / 16, 1);
+  dispatch_columns(ids.size());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   std::uint32_t covered = 0;
   counter_.read(0, &covered, sizeof covered);

@@ -74,4 +74,8 @@ void dispatch_pixels(const glm::ivec2& size) {
   glDispatchCompute(static_cast<GLuint>(size.x + 15) / 16, static_cast<GLuint>(size.y + 7) / 8, 1);
 }
 
+void dispatch_columns(const glm::ivec2& size) {
+  glDispatchCompute(static_cast<GLuint>(size.x + 63) / 64, static_cast<GLuint>(size.y + 15) / 16, 1);
+}
+
 }  // namespace stipple

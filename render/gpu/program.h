@@ -34,4 +34,7 @@ void dispatch_items(std::size_t items, std::size_t group_size);
 // Runs the program in use on every pixel of a picture, in work groups of 16 x 8.
 void dispatch_pixels(const glm::ivec2& size);
 
+// The same with an invocation for several pixels: shaders/column.glsl, which has no barriers to wait at.
+void dispatch_columns(const glm::ivec2& size);
+
 }  // namespace stipple

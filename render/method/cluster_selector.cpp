@@ -132,8 +132,9 @@ void ClusterSelector::warm_up(const View& view, const FeedbackTarget& frame) {
   forget();
   start_view(view);
   for (int frames = 0; frames < 2; ++frames) {
+    for (std::size_t eye = 0; eye < view.eyes(); ++eye) see(frame, eye);
     select(view, 1);
-    for (std::size_t eye = 0; eye < view.eyes(); ++eye) learn(frame, eye);
+    learn_yield(frame);
   }
   table_ = table;
   forget();
@@ -368,25 +369,31 @@ ClusterSelector::Result ClusterSelector::read_back() {
   return result;
 }
 
-void ClusterSelector::learn(const FeedbackTarget& frame, std::size_t eye) {
-  if (options_.by_yield) {
-    yield_.use();
-    frame.ids().bind(1);
-    states_.bind_storage(2);
-    places_.bind_storage(3);
-    table_->boxes.bind_storage(4);
-    stretches_.bind_storage(7);
-    for (std::size_t c = 0; c < taken_.size(); ++c) {
-      if (taken_[c].stretches == 0) continue;
-      table_->chunks[c].points.bind_storage(0);
-      table_->chunks[c].ids.bind_storage(1);
-      glUniform1ui(0, taken_[c].first_stretch);
-      glUniform1ui(1, taken_[c].first_stretch + taken_[c].stretches);
-      dispatch_items((taken_[c].stretches + 1) / 2, 64);
-    }
+void ClusterSelector::learn_yield(const FeedbackTarget& frame) {
+  if (!options_.by_yield) return;
+  yield_.use();
+  frame.ids().bind(1);
+  states_.bind_storage(2);
+  places_.bind_storage(3);
+  table_->boxes.bind_storage(4);
+  stretches_.bind_storage(7);
+  for (std::size_t c = 0; c < taken_.size(); ++c) {
+    if (taken_[c].stretches == 0) continue;
+    table_->chunks[c].points.bind_storage(0);
+    table_->chunks[c].ids.bind_storage(1);
+    glUniform1ui(0, taken_[c].first_stretch);
+    glUniform1ui(1, taken_[c].first_stretch + taken_[c].stretches);
+    dispatch_items((taken_[c].stretches + 1) / 2, 64);
   }
-  see(frame, eye);
-  if (options_.skip_occluded) test_shards(eye);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void ClusterSelector::see(const FeedbackTarget& frame, std::size_t eye) {
+  eyes_[eye].drawn = &frame;
+  if (!options_.skip_occluded) return;
+  eyes_[eye].pyramid.build(frame);
+  if (!selected_) return;
+  test_shards(eye);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
@@ -401,11 +408,6 @@ void ClusterSelector::test_shards(std::size_t eye) {
   glUniform1ui(1, eyes_open_ == 1 ? 3u : 1u << eye);
   glUniform1i(3, DepthPyramid::kMostLevels);
   dispatch_items(stretches(), 64);
-}
-
-void ClusterSelector::see(const FeedbackTarget& frame, std::size_t eye) {
-  if (options_.skip_occluded) eyes_[eye].pyramid.build(frame);
-  eyes_[eye].drawn = &frame;
 }
 
 }  // namespace stipple

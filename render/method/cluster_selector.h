@@ -70,12 +70,11 @@ class ClusterSelector {
   // Whether hidden() can tell: something was drawn in this view.
   bool sees_depth() const;
 
-  // What select() chose is drawn, in this frame of an eye, whose block is bound: sees what came of it. The frame must
-  // stay as it is until the next select() or forget().
-  void learn(const FeedbackTarget& frame, std::size_t eye);
-
-  // The frame shows what is carried into this eye's view.
+  // The next select() adds to this frame of an eye, whose block is bound: tests against it, also the shards of clusters
+  // that the last select() of this view took. The frame must stay as it is until then.
   void see(const FeedbackTarget& frame, std::size_t eye);
+  // What select() chose is drawn, in this frame of an eye, whose block is bound: how much of it is seen.
+  void learn_yield(const FeedbackTarget& frame);
 
   // Places in the chunks' buffers of the points taken.
   const GpuBuffer& places() const { return places_; }

@@ -31,8 +31,8 @@ Selection Hybrid::select(std::uint32_t budget) {
   return selection;
 }
 
-void Hybrid::frame_drawn(const FeedbackTarget& frame, std::size_t eye) {
-  if (to_learn_) selector_.learn(frame, eye);
+void Hybrid::frame_drawn(const FeedbackTarget& frame, std::size_t) {
+  if (to_learn_) selector_.learn_yield(frame);
 }
 
 SelectionCounts Hybrid::counts() const {

@@ -23,8 +23,8 @@ class Hybrid final : public Method {
   bool keeps_still_view() const override { return keep_still_; }
   void forget() override { selector_.forget(); }
   void start_view(const View&) override;
-  bool selects_by_what_is_carried() const override { return true; }
-  void carry_drawn(const FeedbackTarget& frame, std::size_t eye) override { selector_.see(frame, eye); }
+  bool selects_by_picture() const override { return true; }
+  void see(const FeedbackTarget& frame, std::size_t eye) override { selector_.see(frame, eye); }
   void warm_up(const View& view, const FeedbackTarget& frame) override { selector_.warm_up(view, frame); }
   Selection select(std::uint32_t budget) override;
   void frame_drawn(const FeedbackTarget& frame, std::size_t eye) override;
@@ -42,7 +42,7 @@ class Hybrid final : public Method {
   View view_;
   std::uint32_t open_ = 0;  // clusters with points left for this view
   bool selected_ = false;   // something for this view
-  bool to_learn_ = false;   // from the next frame
+  bool to_learn_ = false;   // from the frame to be drawn
 };
 
 }  // namespace stipple

@@ -72,10 +72,10 @@ class Method {
   virtual void warm_up(const View&, const FeedbackTarget&) {}
   // Carry::indices: the items that draw what this finished frame, the last of an eye, shows. Valid until the next call.
   virtual void append_carried(const FeedbackTarget&, std::vector<DrawItem>&) {}
-  // Whether select() wants to know what is carried into a new view: then that is drawn first, and carry_drawn() called.
-  virtual bool selects_by_what_is_carried() const { return false; }
-  // The frame of this eye shows what is carried; the eye's block is bound.
-  virtual void carry_drawn(const FeedbackTarget&, std::size_t /*eye*/) {}
+  // Whether select() wants to know what the picture shows: then what is carried into a new view is drawn first.
+  virtual bool selects_by_picture() const { return false; }
+  // What select() adds to, the frame of this eye, where there is anything in it; the eye's block is bound.
+  virtual void see(const FeedbackTarget&, std::size_t /*eye*/) {}
   // The next points for this view, at most `budget`, for each of its eyes. Valid until the next call. The block of the
   // first eye is bound.
   virtual Selection select(std::uint32_t budget) = 0;

@@ -158,12 +158,15 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
     return report_ = {.points_filled = steered ? steered->take_points() : 0, .converged = true, .budget = budget};
 
   begin_frame();
-  const bool by_what_is_carried = !kept_ && !blank_ && method_->selects_by_what_is_carried();
-  if (by_what_is_carried)
-    for (std::size_t eye = 0; eye < eyes_.size(); ++eye) draw_carried(eye);
+  const bool by_picture = !blank_ && method_->selects_by_picture();
+  for (std::size_t eye = 0; by_picture && eye < eyes_.size(); ++eye) {
+    eyes_[eye].block.bind();
+    if (!kept_) draw_carried(eye);
+    method_->see(current(eye), eye);
+  }
   eyes_[0].block.bind();
   Selection selection = method_->select(budget);
-  for (std::size_t eye = 0; eye < eyes_.size(); ++eye) draw_selected(selection.items, kept_ || by_what_is_carried, eye);
+  for (std::size_t eye = 0; eye < eyes_.size(); ++eye) draw_selected(selection.items, kept_ || by_picture, eye);
   if (steered) steered->end_frame();
   blank_ = false;
   view_drawn_ = true;
@@ -193,11 +196,9 @@ void ProgressiveRenderer::begin_frame() {
 }
 
 void ProgressiveRenderer::draw_carried(std::size_t eye) {
-  eyes_[eye].block.bind();
   std::vector<DrawItem> carried;
   append_carry(carried, eye);
   rasterizer_->draw(current(eye), carried);
-  method_->carry_drawn(current(eye), eye);
 }
 
 void ProgressiveRenderer::draw_selected(std::vector<DrawItem>& items, bool over_picture, std::size_t eye) {

@@ -86,7 +86,7 @@ class ProgressiveRenderer {
   void append_vertices(std::vector<DrawItem>& items, std::size_t eye);
   // The next targets, and each eye's block.
   void begin_frame();
-  // What is carried, and no more.
+  // What is carried, and no more; the eye's block is bound.
   void draw_carried(std::size_t eye);
   // What is selected, over what is carried already or with that. Leaves `items` as they are.
   void draw_selected(std::vector<DrawItem>& items, bool over_picture, std::size_t eye);
