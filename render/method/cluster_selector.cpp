@@ -176,8 +176,9 @@ ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t 
   } else {
     outline(tested, open_ - added_, added_);
   }
+  if (sees_depth() && (seen_anew_ || added_ > 0)) test(tested, open_);
+  seen_anew_ = false;
   added_ = 0;
-  if (sees_depth()) test(tested, open_);
   score(view, new_view ? table_->size : open_, new_view);
   rank(std::min(budget, options_.largest_budget));
   Result result = read_back();
@@ -390,6 +391,7 @@ void ClusterSelector::learn_yield(const FeedbackTarget& frame) {
 
 void ClusterSelector::see(const FeedbackTarget& frame, std::size_t eye) {
   eyes_[eye].drawn = &frame;
+  seen_anew_ = true;
   if (!options_.skip_occluded) return;
   eyes_[eye].pyramid.build(frame);
   if (!selected_) return;

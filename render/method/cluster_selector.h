@@ -137,6 +137,7 @@ class ClusterSelector {
   std::uint32_t open_ = 0;         // clusters open after the last select(), and those added since
   std::uint32_t added_ = 0;        // of them, since
   bool selected_ = false;          // in this view
+  bool seen_anew_ = false;         // see() was called since the last select()
   Looks looks_of_one_;
   std::optional<Looks> looks_of_two_;  // once a view had two eyes
   Program score_;

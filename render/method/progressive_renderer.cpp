@@ -159,19 +159,20 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
 
   begin_frame();
   const bool by_picture = !blank_ && method_->selects_by_picture();
-  for (std::size_t eye = 0; by_picture && eye < eyes_.size(); ++eye) {
-    eyes_[eye].block.bind();
-    if (!kept_) draw_carried(eye);
-    method_->see(current(eye), eye);
-  }
-  eyes_[0].block.bind();
-  Selection selection = method_->select(budget);
-  for (std::size_t eye = 0; eye < eyes_.size(); ++eye) draw_selected(selection.items, kept_ || by_picture, eye);
+  if (by_picture) show_picture(kept_);
+  const std::uint64_t selected = draw_selected(budget, kept_ || by_picture);
   if (steered) steered->end_frame();
   blank_ = false;
   view_drawn_ = true;
-  const std::uint64_t filled = steered ? steered->take_points() : selection.points;
+  const std::uint64_t filled = steered ? steered->take_points() : selected;
   return report_ = {.points_filled = filled, .converged = method_->finished(), .budget = budget};
+}
+
+FrameReport ProgressiveRenderer::draw_more(std::uint32_t budget) {
+  // A moving picture is another in the next frame: too soon to see again
+  if (kept_ && method_->selects_by_picture()) show_picture(true);
+  const std::uint64_t selected = draw_selected(budget, true);
+  return report_ = {.points_filled = selected, .converged = method_->finished(), .budget = budget};
 }
 
 FrameReport ProgressiveRenderer::await_report() {
@@ -201,17 +202,31 @@ void ProgressiveRenderer::draw_carried(std::size_t eye) {
   rasterizer_->draw(current(eye), carried);
 }
 
-void ProgressiveRenderer::draw_selected(std::vector<DrawItem>& items, bool over_picture, std::size_t eye) {
-  eyes_[eye].block.bind();
-  if (over_picture) {
-    rasterizer_->add(current(eye), items);
-  } else {
-    const auto selected = static_cast<std::ptrdiff_t>(items.size());
-    if (!blank_) append_carry(items, eye);
-    rasterizer_->draw(current(eye), items);
-    items.erase(items.begin() + selected, items.end());
+void ProgressiveRenderer::show_picture(bool carried) {
+  for (std::size_t eye = 0; eye < eyes_.size(); ++eye) {
+    eyes_[eye].block.bind();
+    if (!carried) draw_carried(eye);
+    method_->see(current(eye), eye);
   }
-  method_->frame_drawn(current(eye), eye);
+}
+
+std::uint64_t ProgressiveRenderer::draw_selected(std::uint32_t budget, bool over_picture) {
+  eyes_[0].block.bind();
+  Selection selection = method_->select(budget);
+  std::vector<DrawItem>& items = selection.items;
+  const auto selected = static_cast<std::ptrdiff_t>(items.size());
+  for (std::size_t eye = 0; eye < eyes_.size(); ++eye) {
+    eyes_[eye].block.bind();
+    if (over_picture) {
+      rasterizer_->add(current(eye), items);
+    } else {
+      if (!blank_) append_carry(items, eye);
+      rasterizer_->draw(current(eye), items);
+      items.erase(items.begin() + selected, items.end());
+    }
+    method_->frame_drawn(current(eye), eye);
+  }
+  return selection.points;
 }
 
 FrameData ProgressiveRenderer::read(std::size_t eye) {

@@ -49,6 +49,11 @@ class ProgressiveRenderer {
   // is the most, and the report is as late as the GPU: it holds what that told since the last one, perhaps of no frame
   // yet.
   FrameReport draw(const View& view, std::uint32_t budget);
+  // Whether frames of this method can be added to: it carries the last one over.
+  bool adds_to_frames() const { return method_->carry() != Carry::none; }
+  // At most `budget` more points in the frame that draw() began, of a method that adds to frames and is not steered by
+  // the GPU. The report is of these.
+  FrameReport draw_more(std::uint32_t budget);
   // The last frame's report, complete: waits for the GPU if that steers.
   FrameReport await_report();
   // Whether the GPU decides how many points a frame of this method draws.
@@ -88,8 +93,10 @@ class ProgressiveRenderer {
   void begin_frame();
   // What is carried, and no more; the eye's block is bound.
   void draw_carried(std::size_t eye);
-  // What is selected, over what is carried already or with that. Leaves `items` as they are.
-  void draw_selected(std::vector<DrawItem>& items, bool over_picture, std::size_t eye);
+  // The method sees the picture that it adds to; what is not carried into it yet is, unless `carried`.
+  void show_picture(bool carried);
+  // Has the method select, and draws that over the picture, or with what is carried; returns how many points.
+  std::uint64_t draw_selected(std::uint32_t budget, bool over_picture);
   FeedbackTarget& current(std::size_t eye = 0) { return *eyes_[eye].targets[current_]; }
   FeedbackTarget& previous(std::size_t eye = 0) {
     auto& own = eyes_[eye].targets[1 - current_];

@@ -18,10 +18,10 @@ struct SteeringState {
   // Those of BudgetController
   double target_ms = 0.0;
   double fixed = 0.0;
-  double slope = 0.0;
+  double per_point_ms = 0.0;
   double fixed2 = 0.0;
-  double fixed_slope = 0.0;
-  double slope2 = 0.0;
+  double fixed_per_point = 0.0;
+  double per_point2 = 0.0;
   std::uint32_t least = 0;
   std::uint32_t most = 0;
   std::uint32_t budget = 0;  // of the last frame

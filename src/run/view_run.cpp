@@ -20,27 +20,37 @@ TimedDrawing::TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& po
                            std::size_t eyes)
     : renderer_(renderer), policy_(policy) {
   if (policy.frames_per_second && !renderer.steered())
-    controller_.emplace(1000.0 / *policy.frames_per_second, BudgetController::kFirstBudget, BudgetController::Limits{});
+    parts_.emplace(1000.0 / *policy.frames_per_second, BudgetController::kFirstBudget, BudgetController::Limits{},
+                   renderer.adds_to_frames() ? FrameParts::Parts::several : FrameParts::Parts::one);
   renderer.warm_up(size, eyes);
 }
 
 const FrameState& TimedDrawing::draw(const View& view, const std::function<void()>& before) {
   using Clock = std::chrono::steady_clock;
   ++state_.frame;
-  const std::uint32_t budget = controller_ ? controller_->budget() : largest_budget(policy_);
+  state_.budget = 0;
+  double ms = 0.0;
   const auto start = Clock::now();
+  const auto await_part = [&] {
+    glFinish();
+    ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    const FrameReport report = renderer_.await_report();
+    state_.budget += report.budget;
+    state_.points_drawn += report.points_filled;
+    state_.converged = report.converged;
+    return report.points_filled;
+  };
   if (before) before();
-  renderer_.draw(view, budget);
-  glFinish();
-  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  const FrameReport report = renderer_.await_report();
-  if (controller_) controller_->frame_done(report.points_filled, ms);
-
-  state_.budget = report.budget;
+  renderer_.draw(view, parts_ ? parts_->first() : largest_budget(policy_));
+  std::uint64_t points = await_part();
+  while (parts_) {
+    const std::uint32_t more = parts_->next(points, ms);
+    if (more == 0 || state_.converged) break;
+    renderer_.draw_more(more);
+    points = await_part();
+  }
   state_.milliseconds += ms;
-  state_.points_drawn += report.points_filled;
   count_eyes(view.eyes());
-  state_.converged = report.converged;
   return state_;
 }
 

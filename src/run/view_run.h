@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "render/frame/budget.h"
 #include "render/frame/frame_data.h"
+#include "render/frame/frame_parts.h"
 #include "render/method/progressive_renderer.h"
 
 namespace stipple {
@@ -18,8 +18,8 @@ struct Until {
   std::optional<double> milliseconds;
 };
 
-// Points a frame: a fixed number, or what a frame-rate target allows. Where the GPU steers to a target by itself, it is
-// asked (MethodOptions::steering).
+// Points a frame: a fixed number, or what a frame-rate target allows, drawn in parts (FrameParts). Where the GPU steers
+// to a target by itself, it is asked (MethodOptions::steering).
 struct BudgetPolicy {
   std::uint32_t points = 1'000'000;
   std::optional<double> frames_per_second;
@@ -65,7 +65,7 @@ class TimedDrawing {
 
   ProgressiveRenderer& renderer_;
   BudgetPolicy policy_;
-  std::optional<BudgetController> controller_;
+  std::optional<FrameParts> parts_;
   FrameState state_;
 };
 

@@ -57,6 +57,53 @@ TEST_P(EachMethod, ConvergesToBruteForceForAnyBudgetAndSeed) {
           << budget << " " << seed;
 }
 
+TEST_P(EachMethod, ConvergesInFramesOfSeveralParts) {
+  const Dataset& dataset = scene("city", kPoints);
+  for (const double eyes_apart : {0.0, 0.5}) {
+    const auto drawn = method(dataset);
+    ProgressiveRenderer renderer(*drawn, rasterizer(), dataset.points.grid);
+    if (!renderer.adds_to_frames()) return;
+    View view = view_of(dataset, "oblique");
+    view.eyes_apart = eyes_apart;
+    const auto draw_frame = [&](const View& next) {
+      FrameReport report = renderer.draw(next, 4'000);
+      for (int part = 0; part < 3 && !report.converged; ++part) {
+        report = renderer.draw_more(3'000);
+        EXPECT_LE(report.points_filled, 3'000u);
+      }
+      return report.converged;
+    };
+    for (int frame = 0; frame < 4; ++frame) {
+      View other = view;
+      other.eye += view.forward * (20.0 - 5.0 * frame);
+      draw_frame(other);
+    }
+    for (int frame = 0; !draw_frame(view); ++frame) ASSERT_LT(frame, 1'000);
+    for (std::size_t eye = 0; eye < view.eyes(); ++eye)
+      EXPECT_TRUE(same_picture(renderer.read(eye), brute_force_picture(dataset.points, rasterizer(), view.of_eye(eye))))
+          << eyes_apart << " " << eye;
+  }
+}
+
+// The slots of unstructured are drawn one after the other, whoever asks.
+TEST(UnstructuredInParts, DrawsTheFrameOfTheWholeBudget) {
+  const Dataset& dataset = scene("city", kPoints);
+  const View view = view_of(dataset, "oblique");
+  const auto picture = [&](bool in_parts) {
+    const auto drawn = make_method(Mode::unstructured, dataset.points, nullptr);
+    ProgressiveRenderer renderer(*drawn, RasterizerKind::compute, dataset.points.grid);
+    for (int frame = 0; frame < 3; ++frame) {
+      View next = view;
+      next.eye += view.forward * (5.0 * frame);
+      renderer.draw(next, in_parts ? 3'000 : 9'000);
+      if (in_parts) renderer.draw_more(5'000);
+      if (in_parts) renderer.draw_more(1'000);
+    }
+    return renderer.read();
+  };
+  EXPECT_TRUE(same_picture(picture(true), picture(false)));
+}
+
 TEST_P(EachMethod, ConvergesToBruteForceWithSplats) {
   const Dataset& dataset = scene("forest", kPoints);
   const View view = view_of(dataset, "oblique");
