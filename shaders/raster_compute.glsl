@@ -11,7 +11,7 @@
 #include "projection.glsl"
 #include "point_source.glsl"
 #ifdef SOURCE_GRID
-layout(local_size_x = 16, local_size_y = 8) in;
+#include "column.glsl"
 #else
 layout(local_size_x = 128) in;
 #endif
@@ -117,7 +117,7 @@ void main() {
     draw(i);
 #endif
 #elif defined(SOURCE_GRID)
-  draw(ivec2(gl_GlobalInvocationID.xy));
+  for (uint shown = shown_in_column(previous_ids); shown != 0u; shown &= shown - 1u) draw(first_shown(shown));
 #elif defined(SOURCE_PICKS)
   // Picks lie about in memory: an invocation fetches several before it draws one, so that it waits for all at once
   const uint kPicksAtOnce = 4u;

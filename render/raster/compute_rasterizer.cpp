@@ -28,7 +28,7 @@ void dispatch_points(SourcePrograms& programs, std::span<const DrawItem> items) 
       glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, command->buffer->name());
       glDispatchComputeIndirect(static_cast<GLintptr>(command->offset + offsetof(IndirectCommand, groups_x)));
     } else if (const auto* grid = std::get_if<CarriedGrid>(&item)) {
-      dispatch_pixels(grid->previous->size());
+      dispatch_columns(grid->previous->size());
     } else {
       const bool picks = std::holds_alternative<PickedPoints>(item);
       dispatch_items(item_capacity(item), picks ? kPicksAtOnce * kRasterGroupSize : kRasterGroupSize);
