@@ -18,7 +18,8 @@ class FrameCost {
 
   // What a frame with so many points took, both above 0. The fewer of its budget they are, the less is learnt from it.
   void learn(double points, double budget, double milliseconds);
-  // A frame had none of these, perhaps because the fixed part alone seems to cost too much: believes that a little less.
+  // A frame had none of these, perhaps because the fixed part alone seems to cost too much: believes that a little
+  // less.
   void doubt_fixed_part();
 
  private:

@@ -8,6 +8,7 @@
 #include <glm/gtc/constants.hpp>
 #include <thread>
 
+#include "render/raster/pixel_keys.h"
 #include "src/cli/cli.h"
 
 namespace stipple {
@@ -39,7 +40,10 @@ Json program_provenance() {
 }
 
 Json context_provenance(const HeadlessContext& context) {
-  return {{"gl_platform", context.platform()}, {"gl_renderer", context.renderer()}, {"gl_version", context.version()}};
+  return {{"gl_platform", context.platform()},
+          {"gl_renderer", context.renderer()},
+          {"gl_version", context.version()},
+          {"gl_atomic_bits", has_64_bit_atomics() ? 64 : 32}};
 }
 
 Json dataset_provenance(const Dataset& dataset) {

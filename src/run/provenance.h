@@ -15,7 +15,7 @@ std::string text_of(const Json& document, int indent = -1);
 
 // {"version", "machine": {"cpu", "cores", "system"}}
 Json program_provenance();
-// {"gl_platform", "gl_renderer", "gl_version"}
+// {"gl_platform", "gl_renderer", "gl_version", "gl_atomic_bits"}; the context is current.
 Json context_provenance(const HeadlessContext& context);
 // {"path", "format", "points_total", "points_hash", "color", "bounds", "grid"}
 Json dataset_provenance(const Dataset& dataset);

@@ -68,7 +68,7 @@ TEST_F(StudyCommand, WritesCurvesThatRiseAndEndIdentical) {
     EXPECT_EQ(summary.at("repeats"), 2);
     EXPECT_TRUE(summary.at("reached").at("identical").at("points").is_number());
   }
-  for (const char* key : {"version", "machine", "gl_renderer", "settings", "datasets"})
+  for (const char* key : {"version", "machine", "gl_renderer", "gl_atomic_bits", "settings", "datasets"})
     EXPECT_TRUE(document.contains(key)) << key;
   EXPECT_EQ(document.at("datasets").at(0).at("points_total"), 20'000);
 
