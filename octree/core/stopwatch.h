@@ -14,6 +14,11 @@ class Stopwatch {
     return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
   }
 
+  // Since then, and goes on.
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

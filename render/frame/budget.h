@@ -27,9 +27,13 @@ class BudgetController {
   // What a frame with `points` streamed points took. The fewer of its budget they are, the less is learnt from it; from
   // a frame without points, nothing.
   void frame_done(std::uint64_t points, double milliseconds);
+  // Frames have so many times the pixels from now on.
+  void scale_pixels(double ratio);
   const FrameCost& cost() const { return cost_; }
 
  private:
+  void steer();
+
   double target_ms_;
   Limits limits_;
   std::uint32_t budget_;

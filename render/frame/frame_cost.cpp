@@ -33,6 +33,12 @@ void FrameCost::doubt_fixed_part() {
   fixed_ms_ *= kBelieved;
 }
 
+void FrameCost::scale_fixed_part(double ratio) {
+  fixed_ms_ *= ratio;
+  fixed2_ *= ratio * ratio;
+  fixed_per_point_ *= ratio;
+}
+
 void FrameCost::begin(double points, double milliseconds) {
   fixed_ms_ = kFirstFixed * milliseconds;
   per_point_ms_ = (milliseconds - fixed_ms_) / points;

@@ -21,6 +21,8 @@ class FrameCost {
   // A frame had none of these, perhaps because the fixed part alone seems to cost too much: believes that a little
   // less.
   void doubt_fixed_part();
+  // Frames have so many times the pixels from now on, which is what the fixed part goes by.
+  void scale_fixed_part(double ratio);
 
  private:
   void begin(double points, double milliseconds);

@@ -21,14 +21,11 @@ constexpr double kCautious = 0.5;
 
 }  // namespace
 
-FrameParts::FrameParts(double target_ms, std::uint32_t first_budget, const BudgetController::Limits& limits,
-                       Parts parts)
-    : target_ms_(target_ms),
-      limits_(limits),
-      several_(parts == Parts::several),
-      beginning_(target_ms, first_budget, limits) {}
+FrameParts::FrameParts(double target_ms, std::uint32_t first_budget, const BudgetController::Limits& limits)
+    : target_ms_(target_ms), limits_(limits), beginning_(target_ms, first_budget, limits) {}
 
-std::uint32_t FrameParts::first() {
+std::uint32_t FrameParts::first(bool only) {
+  only_ = only;
   drawn_ = 0;
   elapsed_ms_ = 0.0;
   load_ = 1.0;
@@ -44,17 +41,22 @@ std::uint32_t FrameParts::next(std::uint64_t points, double milliseconds) {
   if (drawn_++ == 0) {
     const FrameCost& cost = beginning_.cost();
     if (cost.known()) load_ = std::clamp(took / cost.of(drawn), 1.0 / kMostLoad, kMostLoad);
-    if (several_) beginning_.aim_at(part_of(target_ms_));
+    beginning_.aim_at(only_ ? target_ms_ : part_of(target_ms_));
     beginning_.frame_done(points, took);
   } else if (took > 0.0) {
     more_.learn(drawn, asked_, took);
   }
   // Who drew less than allowed has little to draw, or waits for a disk
-  if (!several_ || 2 * points < asked_) return 0;
+  if (only_ || 2 * points < asked_) return 0;
   const double left = target_ms_ - milliseconds;
   asked_ = left < kLittle * target_ms_ ? 0 : points_in(part_of(left));
   if (asked_ == 0 && drawn_ == 1) more_.doubt_fixed_part();
   return asked_;
+}
+
+void FrameParts::scale_pixels(double ratio) {
+  beginning_.scale_pixels(ratio);
+  more_.scale_fixed_part(ratio);
 }
 
 double FrameParts::part_of(double milliseconds) const {

@@ -15,17 +15,22 @@ namespace stipple {
 //   while (const std::uint32_t points = parts.next(drawn, milliseconds)) drawn = draw_more(points);
 class FrameParts {
  public:
-  enum class Parts { one, several };
+  // `limits` hold for each part.
+  FrameParts(double target_ms, std::uint32_t first_budget, const BudgetController::Limits& limits);
 
-  // `limits` hold for each part. One: frames to which nothing can be added, steered by a BudgetController alone.
-  FrameParts(double target_ms, std::uint32_t first_budget, const BudgetController::Limits& limits,
-             Parts parts = Parts::several);
-
-  // Points that the first part of the next frame may draw.
-  std::uint32_t first();
+  // From the next frame on.
+  void aim_at(double target_ms) { target_ms_ = target_ms; }
+  // Points that the first part of the next frame may draw. `only`: nothing can be added to this frame, nor to those
+  // after it, as far as is known; then next() always ends it, and they are steered as a BudgetController does.
+  std::uint32_t first(bool only = false);
   // How many the last part drew, and what the frame has taken since it began: how many the next part may draw; 0: the
   // frame is at its end.
   std::uint32_t next(std::uint64_t points, double milliseconds);
+
+  // Frames have so many times the pixels from now on.
+  void scale_pixels(double ratio);
+  // Of a frame's time, about what its pixels take, whatever its points; 0 while nothing is known.
+  double fixed_ms() const { return beginning_.cost().fixed(); }
 
  private:
   // What the next part should take of what is left.
@@ -34,10 +39,10 @@ class FrameParts {
 
   double target_ms_;
   BudgetController::Limits limits_;
-  bool several_;
   BudgetController beginning_;  // first parts, which carry the last frame
   FrameCost more_;              // the others
   // Of this frame
+  bool only_ = false;
   int drawn_ = 0;  // parts
   double elapsed_ms_ = 0.0;
   double load_ = 1.0;        // what its first part took, of what was expected

@@ -15,7 +15,7 @@ namespace stipple {
 
 // Layout of State in shaders/steer.glsl.
 struct SteeringState {
-  // Those of BudgetController
+  // Those of BudgetController and FrameCost
   double target_ms = 0.0;
   double fixed = 0.0;
   double per_point_ms = 0.0;

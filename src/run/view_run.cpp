@@ -3,7 +3,8 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <chrono>
+
+#include "octree/core/stopwatch.h"
 
 namespace stipple {
 
@@ -20,20 +21,18 @@ TimedDrawing::TimedDrawing(ProgressiveRenderer& renderer, const BudgetPolicy& po
                            std::size_t eyes)
     : renderer_(renderer), policy_(policy) {
   if (policy.frames_per_second && !renderer.steered())
-    parts_.emplace(1000.0 / *policy.frames_per_second, BudgetController::kFirstBudget, BudgetController::Limits{},
-                   renderer.adds_to_frames() ? FrameParts::Parts::several : FrameParts::Parts::one);
+    parts_.emplace(1000.0 / *policy.frames_per_second, BudgetController::kFirstBudget, BudgetController::Limits{});
   renderer.warm_up(size, eyes);
 }
 
 const FrameState& TimedDrawing::draw(const View& view, const std::function<void()>& before) {
-  using Clock = std::chrono::steady_clock;
   ++state_.frame;
   state_.budget = 0;
   double ms = 0.0;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const auto await_part = [&] {
     glFinish();
-    ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    ms = watch.milliseconds();
     const FrameReport report = renderer_.await_report();
     state_.budget += report.budget;
     state_.points_drawn += report.points_filled;
@@ -41,7 +40,7 @@ const FrameState& TimedDrawing::draw(const View& view, const std::function<void(
     return report.points_filled;
   };
   if (before) before();
-  renderer_.draw(view, parts_ ? parts_->first() : largest_budget(policy_));
+  renderer_.draw(view, parts_ ? parts_->first(!renderer_.adds_to_frames()) : largest_budget(policy_));
   std::uint64_t points = await_part();
   while (parts_) {
     const std::uint32_t more = parts_->next(points, ms);

@@ -78,8 +78,8 @@ std::vector<SightedBox> Pane::boxes() const {
   return content_.method ? content_.method->boxes() : std::vector<SightedBox>{};
 }
 
-void Pane::draw(const View& view, std::uint32_t budget) {
-  if (at_rest(view)) return;
+std::uint64_t Pane::draw(const View& view, std::uint32_t budget) {
+  if (at_rest(view)) return 0;
   if (view != drawn_view_) {
     drawn_view_ = view;
     view_points_ = 0;
@@ -87,6 +87,17 @@ void Pane::draw(const View& view, std::uint32_t budget) {
   report_ = (frozen_ ? *frozen_->renderer : *renderer_).draw(view, budget);
   view_points_ += report_.points_filled;
   ++frames_;
+  return report_.points_filled;
+}
+
+std::uint64_t Pane::draw_more(std::uint32_t budget) {
+  if (!adds_to_frames() || report_.converged) return 0;
+  const std::uint64_t before = report_.points_filled;
+  report_ = renderer_->draw_more(budget);
+  const std::uint64_t drawn = report_.points_filled;
+  view_points_ += drawn;
+  report_.points_filled += before;
+  return drawn;
 }
 
 }  // namespace stipple

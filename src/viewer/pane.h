@@ -46,8 +46,11 @@ class Pane {
   // Draws again though it was at rest: the method has got more points.
   void wake() { report_.converged = false; }
 
-  // The next frame, if there is anything to draw.
-  void draw(const View& view, std::uint32_t budget);
+  // The next frame, if there is anything to draw. Returns the points drawn, as draw_more() does.
+  std::uint64_t draw(const View& view, std::uint32_t budget);
+  // Whether that frame can be added to.
+  bool adds_to_frames() const { return renderer_ && !frozen_ && renderer_->adds_to_frames(); }
+  std::uint64_t draw_more(std::uint32_t budget);
   // Nothing more would be drawn for this view.
   bool at_rest(const View& view) const { return !renderer_ || (view == drawn_view_ && report_.converged); }
 

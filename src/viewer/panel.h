@@ -34,7 +34,6 @@ struct PanelFacts {
   View view;
   double frames_per_second = 0.0;
   std::span<const float> frame_ms;  // of the latest frames, the oldest first
-  std::uint32_t budget = 0;
   BudgetPolicy policy;
   ColorChoice color;
   PointSize point_size;

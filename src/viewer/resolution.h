@@ -3,8 +3,8 @@
 
 namespace stipple {
 
-// A frame has a cost by its pixels that no budget of points lowers: carrying the last frame over. Where that alone
-// takes longer than a frame may, pictures have fewer pixels while the camera moves. Pure: times come in as arguments.
+// A frame has a cost by its pixels that no budget of points lowers: carrying the last frame over. Where that takes most
+// of the time a frame has, pictures have fewer pixels while the camera moves. Pure: times come in as arguments.
 class Resolution {
  public:
   static constexpr int kCoarsest = 4;
@@ -12,8 +12,8 @@ class Resolution {
   // Pixels of the window a pixel of the frame is wide and high.
   int divisor() const { return divisor_; }
 
-  // What a frame of a moving camera took, in milliseconds, and whether it had as few points as it may have.
-  void frame_done(double ms, bool least_points, double target_ms);
+  // What its pixels took of a frame of a moving camera, and what it may take in all, in milliseconds.
+  void frame_done(double pixels_ms, double target_ms);
 
  private:
   int divisor_ = 1;

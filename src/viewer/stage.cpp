@@ -159,9 +159,24 @@ void Stage::show(Side side, const Pane::Content& content) {
   }
 }
 
-void Stage::draw(const View& view, std::uint32_t budget) {
-  const auto share = std::max(budget / static_cast<std::uint32_t>(sides()), 1u);
-  for (int side = 0; side < sides(); ++side) panes_[static_cast<std::size_t>(side)].draw(view, share);
+std::uint32_t Stage::share_of(std::uint32_t budget) const {
+  return std::max(budget / static_cast<std::uint32_t>(sides()), 1u);
+}
+
+std::uint64_t Stage::draw(const View& view, std::uint32_t budget) {
+  std::uint64_t drawn = 0;
+  for (std::size_t side = 0; side < sides(); ++side) drawn += panes_[side].draw(view, share_of(budget));
+  return drawn;
+}
+
+bool Stage::adds_to_frames() const {
+  return panes_[left].adds_to_frames() || (split_ && panes_[right].adds_to_frames());
+}
+
+std::uint64_t Stage::draw_more(std::uint32_t budget) {
+  std::uint64_t drawn = 0;
+  for (std::size_t side = 0; side < sides(); ++side) drawn += panes_[side].draw_more(share_of(budget));
+  return drawn;
 }
 
 bool Stage::at_rest(const View& view) const {

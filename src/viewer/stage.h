@@ -48,8 +48,12 @@ class Stage {
   void take(finished::MadeMethod made);
   void take(const finished::Failure& failure);
 
-  // The next frame of the view, if there is anything to draw; of two sides both.
-  void draw(const View& view, std::uint32_t budget);
+  // The next frame of the view, if there is anything to draw; of two sides both. Returns the points drawn, as
+  // draw_more() does.
+  std::uint64_t draw(const View& view, std::uint32_t budget);
+  // Whether that frame can be added to, on one side at least.
+  bool adds_to_frames() const;
+  std::uint64_t draw_more(std::uint32_t budget);
 
   bool is_split() const { return split_; }
   const Pane& pane(Side side = left) const { return panes_[side]; }
@@ -73,7 +77,9 @@ class Stage {
   void dismiss_error() { error_.clear(); }
 
  private:
-  int sides() const { return split_ ? 2 : 1; }
+  std::size_t sides() const { return split_ ? 2 : 1; }
+  // Of each side.
+  std::uint32_t share_of(std::uint32_t budget) const;
   void show(Side side, const Pane::Content& content);
 
   Workshop& workshop_;

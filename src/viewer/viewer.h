@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "render/frame/budget.h"
+#include "octree/core/stopwatch.h"
+#include "render/frame/frame_parts.h"
 #include "src/run/view_run.h"
 #include "src/viewer/comparison.h"
 #include "src/viewer/display.h"
@@ -137,7 +138,8 @@ class Viewer {
   void pick(const PickedPixel& pixel);
 
   void show_frame();
-  void draw_cloud();
+  void draw_cloud(const Stopwatch& frame);
+  void draw_rest(const View& view, std::uint64_t drawn, const Stopwatch& frame);
   void compare_frames();
   void lay_wires();
   std::optional<ReferencePainter::Subject> compared() const;
@@ -164,7 +166,9 @@ class Viewer {
   View wanted_view() const;
   // Of a picture so many pixels wide.
   Display::Scene scene(int width) const;
-  std::uint32_t budget() const;
+  double cloud_target_ms() const;
+  // Of the frame of this view that is drawn next.
+  std::uint32_t first_budget(const View& view);
   void take_screenshot_if_due();
   void write_screenshot(const std::string& path);
   void copy_command();
@@ -200,7 +204,9 @@ class Viewer {
   ReferenceComparison comparison_;
   std::array<const Texture2D*, 2> differences_{};  // of the sides, where they are to be shown
 
-  std::optional<BudgetController> controller_;
+  std::optional<FrameParts> parts_;
+  double steered_pixels_ = 1.0;  // of the last frame
+  double after_cloud_ms_ = 0.0;  // display and panels, of the last frame
   Resolution resolution_;
   Camera last_camera_;
   View drawn_view_;              // of the last frame

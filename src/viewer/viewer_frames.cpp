@@ -2,7 +2,6 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "octree/core/error.h"
@@ -11,16 +10,13 @@
 namespace stipple {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr std::uint32_t kFirstFrameBudget = 100'000;
 constexpr std::size_t kFramesPlotted = 120;
 // A camera that has not moved for so long stands still.
 constexpr double kStillSeconds = 0.15;
 // Points a frame of a still view, at least: nobody waits for its next frame, all wait for its last.
 constexpr std::uint32_t kLeastStillBudget = 200'000;
-// With no more points a frame than that, pixels are what takes its time.
-constexpr std::uint32_t kLeastMovingBudget = 20'000;
+// Of the time a frame has, what is left to points at least, whatever display and panels take.
+constexpr double kLeastForCloud = 0.25;
 
 }  // namespace
 
@@ -35,28 +31,39 @@ bool Viewer::moving() const {
   return moved_at_ >= 0.0 && window_.seconds() - moved_at_ < kStillSeconds;
 }
 
-std::uint32_t Viewer::budget() const {
-  if (!controller_) return options_.policy.points;
-  return moving() ? controller_->budget() : std::max(controller_->budget(), kLeastStillBudget);
+// What a frame may take until the cloud is drawn. What comes after it took so long the last time.
+double Viewer::cloud_target_ms() const {
+  const double target = 1000.0 / *options_.policy.frames_per_second;
+  return std::max(target - after_cloud_ms_, kLeastForCloud * target);
+}
+
+std::uint32_t Viewer::first_budget(const View& view) {
+  if (!parts_) return options_.policy.points;
+  const auto pixels = static_cast<double>(view.size.x) * view.size.y * static_cast<double>(view.eyes());
+  parts_->scale_pixels(pixels / std::exchange(steered_pixels_, pixels));
+  parts_->aim_at(cloud_target_ms());
+  const std::uint32_t first = parts_->first(!stage_.adds_to_frames());
+  return moving() ? first : std::max(first, kLeastStillBudget);
 }
 
 void Viewer::set_policy(const BudgetPolicy& policy) {
   options_.policy = policy;
-  const std::uint32_t first = controller_ ? controller_->budget() : kFirstFrameBudget;
-  controller_.reset();
-  if (policy.frames_per_second)
-    controller_.emplace(1000.0 / *policy.frames_per_second, first, BudgetController::Limits{});
+  if (!policy.frames_per_second)
+    parts_.reset();
+  else if (!parts_)
+    parts_.emplace(cloud_target_ms(), BudgetController::kFirstBudget, BudgetController::Limits{});
 }
 
-void Viewer::draw_cloud() {
+void Viewer::draw_cloud(const Stopwatch& frame) {
   const View fine = wanted_view();
   const bool of_window = fine == view();
-  const bool coarse = moving() && controller_ && resolution_.divisor() > 1 && of_window;
+  const bool coarse = moving() && parts_ && resolution_.divisor() > 1 && of_window;
   const View next = coarse ? view_of(glm::max(size_ / resolution_.divisor(), 1)) : fine;
   if (stage_.at_rest(next)) return;
   if (std::exchange(drawn_view_, next) != next) comparison_.begin_view(window_.seconds());
   try {
-    stage_.draw(next, budget());
+    const std::uint64_t drawn = stage_.draw(next, first_budget(next));
+    draw_rest(next, drawn, frame);
   } catch (const Error& e) {
     // A picture for which there is no room is no reason to end
     if (of_window || options_.exit_after_screenshot) throw;
@@ -67,6 +74,17 @@ void Viewer::draw_cloud() {
   }
   hover_stale_ = true;
   if (stage_.at_rest(fine)) frames_to_show_ = kFramesAfterEvent;
+}
+
+// Adds to the frame, as far as there is time.
+void Viewer::draw_rest(const View& view, std::uint64_t drawn, const Stopwatch& frame) {
+  if (!parts_ || stage_.pane().mode() == Mode::brute_force) return;
+  while (true) {
+    glFinish();
+    const std::uint32_t more = parts_->next(drawn, frame.milliseconds());
+    if (more == 0 || stage_.at_rest(view)) return;
+    drawn = stage_.draw_more(more);
+  }
 }
 
 // What is to be compared with the reference; none: there is nothing, or not all points are in memory.
@@ -121,10 +139,12 @@ void Viewer::show_frame() {
   notice_motion();
   ask_for_reference();
   if (stage_.at_rest(wanted_view()) && frames_to_show_ == 0) return;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const std::uint64_t frames_before = stage_.frames();
   const bool was_moving = moving();
-  draw_cloud();
+  draw_cloud(watch);
+  glFinish();
+  const double cloud_ms = watch.milliseconds();
   compare_frames();
   lay_wires();
   if (stage_.frame())
@@ -133,7 +153,8 @@ void Viewer::show_frame() {
     display_.clear(options_.background, size_);
   show_panels();
   glFinish();
-  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  const double ms = watch.milliseconds();
+  after_cloud_ms_ = ms - cloud_ms;
   if (stage_.frames() > frames_before) learn_from(ms, was_moving);
   ask_under_cursor();
   // The last frame of panels that are settled
@@ -151,10 +172,7 @@ void Viewer::show_frame() {
 void Viewer::learn_from(double ms, bool was_moving) {
   if (frame_ms_.size() == kFramesPlotted) frame_ms_.erase(frame_ms_.begin());
   frame_ms_.push_back(static_cast<float>(ms));
-  if (!controller_ || stage_.pane().mode() == Mode::brute_force) return;
-  const bool least = controller_->budget() <= kLeastMovingBudget;
-  controller_->frame_done(stage_.filled(), ms);
-  if (was_moving) resolution_.frame_done(ms, least, 1000.0 / *options_.policy.frames_per_second);
+  if (parts_ && was_moving) resolution_.frame_done(parts_->fixed_ms(), cloud_target_ms());
 }
 
 void Viewer::show_panels() {
@@ -166,7 +184,6 @@ void Viewer::show_panels() {
                                          .view = view(),
                                          .frames_per_second = frame_seconds_ > 0.0 ? 1.0 / frame_seconds_ : 0.0,
                                          .frame_ms = frame_ms_,
-                                         .budget = budget(),
                                          .policy = options_.policy,
                                          .color = options_.color,
                                          .point_size = options_.point_size,

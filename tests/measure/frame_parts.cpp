@@ -22,11 +22,12 @@ struct Frame {
   std::uint64_t points = 0;
 };
 
-// `load`: of each of its parts.
+// `load`: of each of its parts. `only`: nothing can be added to it.
 Frame draw(
-    FrameParts& parts, const Machine& machine, const std::function<double()>& load = [] { return 1.0; }) {
+    FrameParts& parts, const Machine& machine, const std::function<double()>& load = [] { return 1.0; },
+    bool only = false) {
   Frame frame;
-  std::uint32_t points = parts.first();
+  std::uint32_t points = parts.first(only);
   do {
     const double fixed = frame.parts++ == 0 ? machine.fixed : machine.more_fixed;
     frame.ms += load() * (fixed + machine.per_million * points / 1e6);
@@ -90,12 +91,19 @@ TEST(FrameParts, DoWhatASingleBudgetCannot) {
   EXPECT_LE(near, 600);
 }
 
-TEST(FrameParts, AreOneOfAWholeFrameWhereNothingCanBeAdded) {
-  FrameParts parts(50.0, 100'000, {}, FrameParts::Parts::one);
-  for (int i = 0; i < 20; ++i) draw(parts, {});
-  const Frame frame = draw(parts, {});
+TEST(FrameParts, AreOneThatTakesTheWholeTimeWhereNothingCanBeAdded) {
+  FrameParts parts(50.0, 100'000, {});
+  const auto whole = [&] {
+    return draw(
+        parts, {}, [] { return 1.0; }, true);
+  };
+  for (int i = 0; i < 20; ++i) whole();
+  const Frame frame = whole();
   EXPECT_EQ(frame.parts, 1);
   EXPECT_NEAR(frame.ms, 50.0, 1.0);
+  // Another method goes on
+  draw(parts, {});
+  EXPECT_NEAR(draw(parts, {}).ms, 48.0, 3.0);
 }
 
 TEST(FrameParts, AreAsManyAsAreWorthTheirFixedPart) {
@@ -108,6 +116,28 @@ TEST(FrameParts, AreAsManyAsAreWorthTheirFixedPart) {
   // They have become cheap
   for (int i = 0; i < 150; ++i) parts = std::max(parts, draw(dear, {}).parts);
   EXPECT_GT(parts, 1);
+}
+
+TEST(FrameParts, KeepWhatTheyKnowWhenTheTargetChanges) {
+  FrameParts parts(50.0, 100'000, {});
+  for (int i = 0; i < 20; ++i) draw(parts, {});
+  parts.aim_at(100.0);
+  draw(parts, {});  // its first part is as before
+  EXPECT_NEAR(draw(parts, {}).ms, 97.0, 6.0);
+}
+
+TEST(FrameParts, FollowAChangeOfPixelsAtOnce) {
+  FrameParts parts(50.0, 100'000, {});
+  const Machine fine{24.0, 2.0, 40.0};
+  for (int i = 0; i < 60; ++i) {
+    parts.aim_at(i % 2 ? 50.0 : 65.0);  // frames of one size do not tell their fixed part
+    draw(parts, fine);
+  }
+  EXPECT_NEAR(parts.fixed_ms(), 24.0, 3.0);
+  parts.scale_pixels(0.25);
+  const Frame frame = draw(parts, {6.0, 0.5, 40.0});
+  EXPECT_NEAR(frame.ms, 48.5, 3.0);
+  EXPECT_GT(frame.points, 900'000u);
 }
 
 TEST(FrameParts, EndWithTheFirstWhereThatTakesTheWholeTime) {
