@@ -1,9 +1,10 @@
 #include "render/store/background_load.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <utility>
+
+#include "octree/core/stopwatch.h"
 
 namespace stipple {
 namespace {
@@ -39,7 +40,7 @@ void BackgroundLoad::start() {
 }
 
 void BackgroundLoad::read() {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const ColorMap unstretched = color_.complete({.attribute = color_.attribute});
   load_cloud(source_, attribute_names_of(unstretched, source_.info().schema), cloud_,
              [this](std::uint64_t first, std::size_t count) { arrived(first, count); });
@@ -47,7 +48,7 @@ void BackgroundLoad::read() {
   dataset->info = cloud_.info;
   dataset->colors = color_.complete(map_colors(cloud_, color_.attribute));
   dataset->points = make_point_set(cloud_, dataset->colors);
-  dataset->load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  dataset->load_seconds = watch.seconds();
   const std::lock_guard lock(mutex_);
   whole_ = std::move(dataset);
 }

@@ -6,12 +6,12 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 
 #include "octree/build/builder.h"
 #include "octree/cloud/cloud.h"
 #include "octree/core/error.h"
+#include "octree/core/stopwatch.h"
 #include "octree/open/open.h"
 #include "octree/store/open_tree.h"
 #include "octree/store/tree_source.h"
@@ -20,12 +20,6 @@
 
 namespace stipple {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Finaliser of splitmix64 (Steele, Lea, Flood 2014).
 std::uint64_t mix(std::uint64_t x) {
@@ -79,7 +73,7 @@ Dataset open_dataset(const std::string& path, const ColorChoice& color, const Da
     check_memory(source->info(), needs.octree, limits);
     return load_dataset(*source, color, needs.octree);
   }
-  const auto start = Clock::now();
+  const Stopwatch watch;
   Dataset dataset;
   dataset.tree = open_tree(path);
   dataset.info = dataset.tree->info().source;
@@ -99,7 +93,7 @@ Dataset open_dataset(const std::string& path, const ColorChoice& color, const Da
   } else {
     dataset.points.grid = dataset.info.grid;
   }
-  dataset.load_seconds = seconds_since(start);
+  dataset.load_seconds = watch.seconds();
   return dataset;
 }
 
@@ -113,25 +107,25 @@ Dataset open_dataset(const std::vector<std::string>& paths, const ColorChoice& c
 
 Dataset load_dataset(const PointSource& source, const ColorChoice& color, bool with_octree) {
   Dataset dataset;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   dataset.info = source.info();
   const std::string chosen = choose_color(dataset.info.schema, color.attribute);
   const ColorMap unstretched = color.complete({.attribute = chosen});
   const Cloud cloud = load_cloud(source, attribute_names_of(unstretched, dataset.info.schema));
   dataset.colors = color.complete(map_colors(cloud, chosen));
   dataset.points = make_point_set(cloud, dataset.colors);
-  dataset.load_seconds = seconds_since(start);
+  dataset.load_seconds = watch.seconds();
   if (with_octree) add_octree(dataset);
   return dataset;
 }
 
 void add_octree(Dataset& dataset) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   PointSet& set = dataset.points;
   dataset.octree = std::make_shared<Octree>(build_octree(
       set.grid, set.bounds, PositionView(std::span<const PackedPoint>(set.points), &PackedPoint::position)));
   to_store_order(set, *dataset.octree);
-  dataset.build_seconds = seconds_since(start);
+  dataset.build_seconds = watch.seconds();
 }
 
 double near_plane(const Grid& grid) {

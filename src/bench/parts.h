@@ -9,7 +9,7 @@
 #include "octree/cloud/source.h"
 #include "render/method/method.h"
 #include "render/store/dataset.h"
-#include "src/bench/stopwatch.h"
+#include "src/bench/timing.h"
 #include "src/run/view_run.h"
 
 namespace stipple {

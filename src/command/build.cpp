@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "octree/build/stream/sampler.h"
 #include "octree/build/stream/tree_builder.h"
 #include "octree/core/error.h"
+#include "octree/core/stopwatch.h"
 #include "src/cli/cli.h"
 #include "src/command/build_inputs.h"
 #include "src/command/build_watch.h"
@@ -86,7 +86,7 @@ void print_as_text(const BuildArguments& options, const BuildReport& report, dou
 
 void run(const BuildArguments& options) {
   const StreamOptions stream = stream_options(options);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const auto sources = open_inputs(options.inputs);
   BuildMonitor monitor;
   BuildReport report;
@@ -96,7 +96,7 @@ void run(const BuildArguments& options) {
     report = options.partition == "kd" ? build_kd_tree(sources, options.output, stream, monitor)
                                        : build_tree(sources, options.output, stream, monitor);
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = stopwatch.seconds();
   if (report.largest_rounding > 0.0)
     warn(fmt::format("no common grid holds all files exactly; positions were moved by up to {} units",
                      report.largest_rounding));

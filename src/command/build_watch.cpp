@@ -77,7 +77,7 @@ void BuildWatch::show_until_done() {
   const auto interval = std::chrono::milliseconds(json_ ? 1000 : 200);
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, interval, [this] { return done_; })) {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double seconds = stopwatch_.seconds();
     const BuildProgress progress = monitor_.progress();
     if (json_)
       print_json_line(progress, seconds);

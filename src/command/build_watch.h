@@ -1,12 +1,12 @@
 // What is seen of a running build, and how it is interrupted.
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
 #include "octree/build/stream/monitor.h"
+#include "octree/core/stopwatch.h"
 
 namespace stipple {
 
@@ -33,7 +33,7 @@ class BuildWatch {
 
   const BuildMonitor& monitor_;
   bool json_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch stopwatch_;
   std::mutex mutex_;
   std::condition_variable wake_;
   bool done_ = false;

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 
+#include "octree/core/stopwatch.h"
 #include "octree/read/las/las_writer.h"
 #include "src/cli/cli.h"
 #include "src/json/json.h"
@@ -24,9 +24,9 @@ struct SceneArguments {
 
 void run(const SceneArguments& options) {
   const auto scene = make_scene(options.name, parse_count("--points", options.points), options.seed);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   write_las(*scene, options.output);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = watch.seconds();
 
   const std::uint64_t points = scene->info().point_count;
   const std::uint64_t bytes = std::filesystem::file_size(options.output);

@@ -1,6 +1,6 @@
 #include "src/run/loading_run.h"
 
-#include <chrono>
+#include "octree/core/stopwatch.h"
 
 namespace stipple {
 
@@ -21,15 +21,14 @@ LoadingDrawing::LoadingDrawing(PointArrivals& replayed, Mode mode, const MethodO
       drawing_(renderer_, policy, view.size, view.eyes()) {}
 
 void LoadingDrawing::wait() {
-  using Clock = std::chrono::steady_clock;
   if (state_.frame == 0)
     load_->start();
   else
     load_->resume();
   if (loading_.points_loaded() > 0 && !loading_.idle()) return;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   load_->wait();
-  drawing_.pass(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+  drawing_.pass(watch.milliseconds());
 }
 
 const FrameState& LoadingDrawing::draw(const View& view) {

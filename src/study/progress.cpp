@@ -17,8 +17,8 @@ void StudyProgress::step(const std::string& what) const {
 
 std::string StudyProgress::left() const {
   if (done_ == 0) return "";
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const double seconds = elapsed / static_cast<double>(done_) * static_cast<double>(curves_ - left_out_ - done_);
+  const double seconds =
+      watch_.seconds() / static_cast<double>(done_) * static_cast<double>(curves_ - left_out_ - done_);
   return seconds < 90.0 ? fmt::format(", about {:.0f} s left", std::ceil(seconds))
                         : fmt::format(", about {:.0f} min left", std::ceil(seconds / 60.0));
 }

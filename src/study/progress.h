@@ -2,11 +2,11 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <string>
 
 #include "octree/core/error.h"
+#include "octree/core/stopwatch.h"
 
 namespace stipple {
 
@@ -41,7 +41,7 @@ class StudyProgress {
   const std::atomic<bool>* interrupt_;
   std::size_t left_out_ = 0;
   std::size_t done_ = 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
 };
 
 }  // namespace stipple

@@ -16,7 +16,7 @@ TreeJob::~TreeJob() {
 
 void TreeJob::start(const std::vector<std::string>& inputs, const std::string& folder, std::uint64_t memory) {
   folder_ = folder;
-  start_ = std::chrono::steady_clock::now();
+  watch_ = {};
   cancelled_ = false;
   monitor_.emplace();
   thread_ = std::thread([this, inputs, memory] { work(inputs, memory); });
@@ -40,8 +40,7 @@ void TreeJob::work(const std::vector<std::string>& inputs, std::uint64_t memory)
 }
 
 TreeJob::Status TreeJob::status() const {
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-  return {folder_, monitor_->progress(), seconds.count()};
+  return {folder_, monitor_->progress(), watch_.seconds()};
 }
 
 void TreeJob::cancel() {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "octree/build/stream/monitor.h"
+#include "octree/core/stopwatch.h"
 
 namespace stipple {
 
@@ -48,7 +48,7 @@ class TreeJob {
   void work(const std::vector<std::string>& inputs, std::uint64_t memory);
 
   std::string folder_;
-  std::chrono::steady_clock::time_point start_;
+  Stopwatch watch_;
   std::optional<BuildMonitor> monitor_;
   bool cancelled_ = false;
   std::mutex mutex_;

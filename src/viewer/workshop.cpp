@@ -17,7 +17,6 @@
 namespace stipple {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Phase = WorkStatus::Phase;
 
 void check_room(const SourceInfo& info, std::uint64_t bytes_per_point, const MemoryLimits& limits) {
@@ -129,7 +128,7 @@ WorkStatus Workshop::status() const {
     if (!tasks_.empty() || !finished_.empty()) status.phase = Phase::opening;
     return status;
   }
-  status.seconds = std::chrono::duration<double>(Clock::now() - phase_start_).count();
+  status.seconds = phase_watch_.seconds();
   if (phase_ == Phase::reading) {
     status.points = watch_.points;
     status.total = watch_.total;
@@ -145,7 +144,7 @@ std::vector<Finished> Workshop::take() {
 void Workshop::begin(Phase phase) {
   const std::lock_guard lock(mutex_);
   phase_ = phase;
-  phase_start_ = Clock::now();
+  phase_watch_ = {};
 }
 
 void Workshop::deliver(Finished finished) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -15,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "octree/core/stopwatch.h"
 #include "octree/store/tree_source.h"
 #include "render/method/method.h"
 #include "render/store/color_upload.h"
@@ -148,7 +148,7 @@ class Workshop {
   std::uint64_t asked_ = 0;           // openings asked for
   std::uint64_t working_ = 0;         // that which the thread is at
   WorkStatus::Phase phase_ = WorkStatus::Phase::idle;
-  std::chrono::steady_clock::time_point phase_start_;
+  Stopwatch phase_watch_;
   bool stop_ = false;
 
   std::thread thread_;  // last: it uses the others

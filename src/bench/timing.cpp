@@ -1,9 +1,9 @@
-#include "src/bench/stopwatch.h"
+#include "src/bench/timing.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
+#include "octree/core/stopwatch.h"
 #include "src/run/median.h"
 
 namespace stipple {
@@ -27,13 +27,12 @@ Json Timing::json() const {
 
 Timing time_part(std::string part, double amount, std::string unit, int repeats, const std::function<void()>& work,
                  const std::function<void()>& before) {
-  using Clock = std::chrono::steady_clock;
   Timing timing{std::move(part), std::move(unit), amount, {}, Json::object(), ""};
   for (int i = 0; i <= repeats; ++i) {
     if (before) before();
-    const auto start = Clock::now();
+    const Stopwatch watch;
     work();
-    const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    const double milliseconds = watch.milliseconds();
     if (i > 0) timing.milliseconds.push_back(milliseconds);
   }
   return timing;
