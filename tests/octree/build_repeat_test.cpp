@@ -89,7 +89,7 @@ TEST(BuildOctree, RefusesOptionsOfZero) {
 }
 
 TEST(BuildOctree, DividesDownToSinglePointsWhenAskedTo) {
-  const test::TestCloud cloud{"terrain", test::terrain(5'000, 23)};
+  const test::TestCloud cloud{"terrain", test::terrain(500, 23)};
   const Octree octree = build(cloud, {.leaf_capacity = 1, .cluster_points = 1, .chunk_points = 1});
   EXPECT_EQ(octree.order.size(), cloud.positions.size());
   for (const Cluster& cluster : octree.clusters) ASSERT_EQ(cluster.count, 1u);
