@@ -1,5 +1,5 @@
-// For each stretch, once it is drawn: which of its cluster's shards are out of sight, because they lie outside of the frustum or
-// wholly behind what is drawn. Only certainty rules them out. Once for each eye.
+// Before the next selection of the same view, for each stretch that was drawn: which of its cluster's shards are out of sight,
+// because they lie outside of the frustum or wholly behind what is drawn. Only certainty rules them out. Once for each eye.
 #include "projection.glsl"
 #include "clusters.glsl"
 #include "outline.glsl"
