@@ -23,6 +23,8 @@ class ClusterSource {
   virtual bool finished() const = 0;
   // Adds what it knows.
   virtual void count(SelectionCounts& counts) const = 0;
+  // See Method::unread().
+  virtual Unread unread() const { return {}; }
   // See Method::colored().
   virtual std::optional<std::vector<ColoredPoints>> colored() const { return std::nullopt; }
 };

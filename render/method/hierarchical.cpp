@@ -32,7 +32,6 @@ void Hierarchical::start_view(const View& view) {
   done_.clear();
   next_ = 0;
   to_request_ = 0;
-  under_way_ = 0;
   append(supply_->visible(view));
 }
 
@@ -68,15 +67,17 @@ void Hierarchical::next_round() {
   next_ = 0;
 }
 
-void Hierarchical::request_up_to(std::uint64_t under_way) {
-  while (under_way_ < under_way && to_request_ > 0) {
+// Until so many are under way.
+void Hierarchical::request_ahead(std::uint64_t points) {
+  std::uint64_t under_way = supply_->points_under_way();
+  while (under_way < points && to_request_ > 0) {
     if (next_ == readings_.size()) next_round();
     Reading& reading = readings_[next_];
-    const auto count = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(reading.allowed - reading.requested, under_way - under_way_));
+    const auto count =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(reading.allowed - reading.requested, points - under_way));
     if (count > 0) supply_->request(reading.handle, reading.requested, count, reading.one_pixel);
     reading.requested += count;
-    under_way_ += count;
+    under_way += count;
     to_request_ -= count;
     if (reading.requested == reading.allowed) ++next_;
   }
@@ -100,7 +101,7 @@ Selection Hierarchical::select(std::uint32_t budget) {
   Selection selection;
   if (budget == 0) return selection;
   take_discovered();
-  request_up_to(supply_->read_ahead(budget));
+  request_ahead(supply_->read_ahead(budget));
   std::vector<PointPiece> pieces = supply_->collect(budget);
   // What takes less work to draw stands together
   const auto others =
@@ -108,7 +109,6 @@ Selection Hierarchical::select(std::uint32_t budget) {
   std::uint32_t of_one_pixel = 0;
   for (auto piece = pieces.begin(); piece != others; ++piece) of_one_pixel += piece->count;
   for (const PointPiece& piece : pieces) selection.points += piece.count;
-  under_way_ -= selection.points;
   if (selection.points == 0) return selection;
   PointRange all = stream_.stream(pieces);
   PointRange pixels = all;

@@ -25,8 +25,11 @@ class Hierarchical final : public Method {
   void set_point_size(const PointSize& point_size) override;
   void start_view(const View& view) override;
   Selection select(std::uint32_t budget) override;
-  bool finished() const override { return to_request_ == 0 && under_way_ == 0 && !supply_->searching(); }
+  bool finished() const override {
+    return to_request_ == 0 && supply_->points_under_way() == 0 && !supply_->searching();
+  }
   SelectionCounts counts() const override;
+  Unread unread() const override { return supply_->unread(); }
   std::vector<SightedBox> boxes() const override;
   bool recolor(const ColorUpload&, const PointSet& points) override { return supply_->recolor(points); }
 
@@ -42,7 +45,7 @@ class Hierarchical final : public Method {
 
   void append(const std::vector<VisibleCluster>& clusters);
   void take_discovered();
-  void request_up_to(std::uint64_t under_way);
+  void request_ahead(std::uint64_t points);
   void next_round();
 
   std::unique_ptr<PointSupply> supply_;
@@ -53,7 +56,6 @@ class Hierarchical final : public Method {
   std::vector<std::uint32_t> done_;  // handles of clusters whose points are all requested
   std::size_t next_ = 0;             // reading to go on with in this round
   std::uint64_t to_request_ = 0;     // points not requested yet for this view
-  std::uint64_t under_way_ = 0;      // points requested and not drawn yet
 };
 
 }  // namespace stipple

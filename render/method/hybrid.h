@@ -30,6 +30,7 @@ class Hybrid final : public Method {
   void frame_drawn(const FeedbackTarget& frame, std::size_t eye) override;
   bool finished() const override { return selected_ && open_ == 0 && clusters_->finished(); }
   SelectionCounts counts() const override;
+  Unread unread() const override { return clusters_->unread(); }
   std::optional<std::vector<ColoredPoints>> colored() const override { return clusters_->colored(); }
   // Of a tree on disk, those that are on the GPU.
   std::vector<SightedBox> boxes() const override { return selected_ ? selector_.boxes() : std::vector<SightedBox>{}; }

@@ -26,6 +26,7 @@ class Lod final : public Method {
   Selection select(std::uint32_t budget) override;
   bool finished() const override { return finished_; }
   SelectionCounts counts() const override;
+  Unread unread() const override { return source_->unread(); }
   std::optional<std::vector<ColoredPoints>> colored() const override { return source_->colored(); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "octree/build/sampling.h"
 #include "octree/core/error.h"
@@ -49,6 +50,9 @@ TreeLod::TreeLod(std::shared_ptr<const TreeStore> store, const ColorMap& colors,
 
 std::vector<LodSource::Part> TreeLod::visible(const View& view) {
   for (const PartReader::Request& request : reader_.cancel()) loading_.erase(request.key);
+  new_view_ = true;
+  cannot_read_.clear();
+  unread_ = {};
   return parts_of(supply_.visible(view));
 }
 
@@ -64,20 +68,24 @@ std::vector<LodSource::Part> TreeLod::parts_of(const std::vector<VisibleCluster>
 
 bool TreeLod::draw(std::span<const Part> parts, Selection& selection) {
   ++frame_;
+  bool none_there = true;
   // First, so that none of them gives way to what arrives
   for (const Part& part : parts) {
     const auto resident = residents_.find(part.key);
-    if (resident != residents_.end())
-      resident->second.frame = frame_;
-    else
+    if (resident == residents_.end()) {
       request(part);
+      continue;
+    }
+    resident->second.frame = frame_;
+    none_there = false;
   }
-  receive();
+  // A new view is shown as far as it is there: the camera may be moving
+  receive(!std::exchange(new_view_, false) || none_there);
   bool all = true;
   for (const Part& part : parts) {
     const auto resident = residents_.find(part.key);
     if (resident == residents_.end()) {
-      all = false;
+      all = all && cannot_read_.contains(part.key);
       continue;
     }
     for (const ClusterRun& run : resident->second.runs) pool_.append_items(run, selection.items, one_pixel(part));
@@ -87,16 +95,25 @@ bool TreeLod::draw(std::span<const Part> parts, Selection& selection) {
 }
 
 void TreeLod::request(const Part& part) {
-  if (loading_.insert(part.key).second)
+  if (!cannot_read_.contains(part.key) && loading_.insert(part.key).second)
     reader_.request({part.key, supply_.node(node_of(part.key)), first_of(part.key), part.count});
 }
 
-void TreeLod::receive() {
-  for (PartReader::Part& part : reader_.collect(true)) {
+void TreeLod::receive(bool patient) {
+  for (PartReader::Part& part : reader_.collect(patient)) {
     loading_.erase(part.request.key);
-    if (part.failure) std::rethrow_exception(part.failure);
-    put(part);
+    if (!part.failure) {
+      put(part);
+    } else if (cannot_read_.insert(part.request.key).second) {
+      unread_.add(part.failure);
+    }
   }
+}
+
+Unread TreeLod::unread() const {
+  Unread unread = supply_.unread();
+  unread.add(unread_);
+  return unread;
 }
 
 // What this frame draws has room; where nothing else gives way, the part came for an earlier one.

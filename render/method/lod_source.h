@@ -38,9 +38,11 @@ class LodSource {
   virtual std::vector<Part> discovered() = 0;
   virtual bool searching() const = 0;
   // Appends the items that draw those of `parts` that are on the GPU, and the number of their points, and asks for the
-  // others; true when there are none. Throws Error when reading failed.
+  // others; true when there are none that may still come.
   virtual bool draw(std::span<const Part> parts, Selection& selection) = 0;
   virtual std::uint64_t bytes_read() const { return 0; }
+  // See Method::unread().
+  virtual Unread unread() const { return {}; }
   // See Method::colored().
   virtual std::optional<std::vector<ColoredPoints>> colored() const { return std::nullopt; }
   // What one draw() has room for, in slots of SlottedPoints.
@@ -85,6 +87,7 @@ class TreeLod final : public LodSource {
   bool searching() const override { return supply_.searching(); }
   bool draw(std::span<const Part> parts, Selection& selection) override;
   std::uint64_t bytes_read() const override { return supply_.bytes_read(); }
+  Unread unread() const override;
   std::uint64_t room() const override { return pool_.table().capacity; }
 
  private:
@@ -95,7 +98,7 @@ class TreeLod final : public LodSource {
 
   std::vector<Part> parts_of(const std::vector<VisibleCluster>& clusters) const;
   void request(const Part& part);
-  void receive();
+  void receive(bool patient);
   void put(PartReader::Part& part);
 
   std::shared_ptr<const TreeStore> store_;
@@ -105,6 +108,9 @@ class TreeLod final : public LodSource {
   std::uint64_t frame_ = 0;
   std::unordered_map<PartKey, Resident> residents_;
   std::unordered_set<PartKey> loading_;
+  bool new_view_ = true;                     // and no frame of it drawn
+  std::unordered_set<PartKey> cannot_read_;  // for this view
+  Unread unread_;                            // of those
 };
 
 }  // namespace stipple

@@ -18,6 +18,7 @@
 #include "render/store/cluster_cut.h"
 #include "render/store/color_upload.h"
 #include "render/store/dataset.h"
+#include "render/store/unread.h"
 
 namespace stipple {
 
@@ -84,10 +85,12 @@ class Method {
   virtual SteeredRound* steered() { return nullptr; }
   // The frame of this eye with the selected points is drawn; the eye's block is bound.
   virtual void frame_drawn(const FeedbackTarget&, std::size_t /*eye*/) {}
-  // Nothing is left for this view: the picture equals the brute-force picture, but for mode lod, which stops at the
-  // budget.
+  // Nothing is left for this view: the picture equals the brute-force picture, but for what is unread() and for mode
+  // lod, which stops at the budget.
   virtual bool finished() const = 0;
   virtual SelectionCounts counts() const { return {}; }
+  // Of a tree on disk, what this view needs and could not be read: the picture does without. The next view asks again.
+  virtual Unread unread() const { return {}; }
   // The points on the GPU that it draws from, all of them: new colours may be painted on them (ColorUpload). Nothing:
   // what it draws comes from elsewhere.
   virtual std::optional<std::vector<ColoredPoints>> colored() const { return std::nullopt; }

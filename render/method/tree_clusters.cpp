@@ -6,7 +6,6 @@
 namespace stipple {
 namespace {
 
-constexpr int kTries = 3;  // to read a part
 // Slots freed at once: a share of the pool, so that it is not asked again in the next frame.
 constexpr std::uint32_t kFreedShare = 16;
 // Points uploaded in a frame, for each of its budget: what the next frames draw.
@@ -29,8 +28,7 @@ void TreeClusters::start_view(const View& view) {
   for (const PartReader::Request& request : reader_.cancel()) loading_.erase(request.key);
   wanted_.clear();
   next_ = 0;
-  failures_.clear();
-  failure_ = nullptr;
+  unread_ = {};
   for (Arrival& arrival : arrivals_) arrival.uploaded = 0;
   want(supply_.visible(view));
 }
@@ -71,11 +69,16 @@ void TreeClusters::load(std::uint32_t budget, ClusterSelector& selector) {
   request(std::min(points_ahead_, std::max(kLeastPoints, kAheadShare * budget)), selector);
   receive(selector.open() == 0u && arrivals_.empty());
   upload(std::max(kLeastPoints, kUploadShare * budget), selector);
-  if (failure_ && selector.open() == 0u && idle()) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-bool TreeClusters::idle() const {
+bool TreeClusters::finished() const {
   return next_ == wanted_.size() && loading_.empty() && !supply_.searching();
+}
+
+Unread TreeClusters::unread() const {
+  Unread unread = supply_.unread();
+  unread.add(unread_);
+  return unread;
 }
 
 // Goes on in wanted_ until so many points are on their way, leaving out what is hidden.
@@ -101,18 +104,13 @@ void TreeClusters::request(std::uint64_t points, ClusterSelector& selector) {
 void TreeClusters::receive(bool patient) {
   for (PartReader::Part& part : reader_.collect(patient)) {
     if (part.failure) {
-      fail(part.request, part.failure);
+      loading_.erase(part.request.key);
+      unread_.add(part.failure);
       continue;
     }
     arrived_points_ += part.request.count;
     arrivals_.push_back({part.request.key, std::move(part.points), part.request.count});
   }
-}
-
-void TreeClusters::fail(const PartReader::Request& request, const std::exception_ptr& failure) {
-  if (++failures_[request.key] < kTries) return reader_.request(request);
-  loading_.erase(request.key);
-  if (!failure_) failure_ = failure;
 }
 
 void TreeClusters::upload(std::uint64_t points, ClusterSelector& selector) {

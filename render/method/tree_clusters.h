@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <exception>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -20,8 +19,7 @@ namespace stipple {
 // full, parts out of sight give way, then those whose points are all drawn or hidden, least urgent first: the picture
 // carries what they had to show. So any pool shows the whole view in the end.
 //
-// A part that cannot be read is tried again; when nothing else is left to do for the view, load() throws the Error of
-// the first that failed, once.
+// A view does without what cannot be read.
 class TreeClusters final : public ClusterSource {
  public:
   struct Room {
@@ -38,7 +36,8 @@ class TreeClusters final : public ClusterSource {
   const ClusterTable& table() const override { return pool_.table(); }
   void start_view(const View& view) override;
   void load(std::uint32_t budget, ClusterSelector& selector) override;
-  bool finished() const override { return idle() && !failure_; }
+  bool finished() const override;
+  Unread unread() const override;
   void count(SelectionCounts& counts) const override { counts.bytes_read = supply_.bytes_read(); }
 
  private:
@@ -66,13 +65,10 @@ class TreeClusters final : public ClusterSource {
     bool whole = true;       // all of the part
   };
 
-  // Nothing is on its way, nor to be asked for.
-  bool idle() const;
   void want(const std::vector<VisibleCluster>& clusters);
   void want(Key key, const TreeSupply::Part& part, std::uint32_t count, double urgency);
   void request(std::uint64_t points, ClusterSelector& selector);
   void receive(bool patient);
-  void fail(const PartReader::Request& request, const std::exception_ptr& failure);
   void upload(std::uint64_t points, ClusterSelector& selector);
   void make_room(std::uint32_t slots, ClusterSelector& selector);
   std::vector<Key> finished_parts(const ClusterSelector& selector) const;
@@ -87,8 +83,7 @@ class TreeClusters final : public ClusterSource {
   std::vector<Wanted> wanted_;               // of this view, the most urgent first
   std::size_t next_ = 0;                     // of them to be requested
   std::unordered_map<Key, double> loading_;  // requested, or arrived; urgency, in this view or the last to want it
-  std::unordered_map<Key, int> failures_;
-  std::exception_ptr failure_;
+  Unread unread_;                            // parts
   std::deque<Arrival> arrivals_;
   std::uint64_t arrived_points_ = 0;
   std::unordered_map<Key, Resident> residents_;

@@ -83,16 +83,18 @@ KnownTree::Lookup KnownTree::ask(std::uint32_t index) {
 }
 
 void KnownTree::run(Lookup& lookup) const {
+  lookup.failure = nullptr;
   try {
-    StoredNode& node = lookup.node.stored;
     if (lookup.node.knowledge == Knowledge::continued) {
-      lookup.piece = store_->read_piece(lookup.node.where, node);
+      lookup.piece = store_->read_piece(lookup.node.where, lookup.node.stored);
       return;
     }
-    node = store_->locate(node);
+    const StoredNode node = store_->locate(lookup.node.stored);
     if (node.points > 0 && store_->info().has_details) lookup.details = store_->read_details(node);
+    lookup.node.stored = node;
   } catch (...) {
     lookup.failure = std::current_exception();
+    ++lookup.tries;
   }
 }
 

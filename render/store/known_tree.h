@@ -39,6 +39,7 @@ class KnownTree {
     TreeStore::HierarchyPiece piece{};
     std::optional<NodeDetails> details{};
     std::exception_ptr failure{};
+    int tries = 0;  // that failed so far
   };
   // A node in sight.
   struct Sight {
@@ -67,7 +68,7 @@ class KnownTree {
   // A lookup of the node, which then counts as asked for until it is taken or forgotten.
   Lookup ask(std::uint32_t index);
   void forget(const Lookup& lookup) { nodes_[lookup.index].asked = false; }
-  // Reads what is asked for, a failure included. Any thread.
+  // Reads what is asked for, or keeps why that failed; then it may be run again. Any thread.
   void run(Lookup& lookup) const;
   // Learns from a lookup that was run; nothing from one that failed. A piece that was there before is a failure.
   void take(Lookup& lookup);

@@ -9,6 +9,7 @@ namespace stipple {
 
 std::vector<VisibleCluster> MemorySupply::visible(const View& view) {
   requested_.clear();
+  points_under_way_ = 0;
   const Frustum frustum = frustum_of(view);
   const std::vector<VisibleNode> nodes = stipple::visible_nodes(octree_, frustum);
   visible_nodes_ = nodes.size();
@@ -28,6 +29,7 @@ std::vector<VisibleCluster> MemorySupply::visible(const View& view) {
 
 void MemorySupply::request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) {
   requested_.push_back({octree_.clusters[handle].first + first, count, one_pixel});
+  points_under_way_ += count;
 }
 
 PointPiece MemorySupply::piece(const Stretch& stretch) const {
@@ -44,6 +46,7 @@ std::vector<PointPiece> MemorySupply::collect(std::uint32_t most) {
   const auto give = [&](const Stretch& stretch) {
     pieces.push_back(piece(stretch));
     most -= stretch.count;
+    points_under_way_ -= stretch.count;
     bytes_read_ += stretch.count * (sizeof(PackedPoint) + sizeof(std::uint32_t));
   };
   for (; taken < requested_.size() && requested_[taken].count <= most; ++taken) give(requested_[taken]);

@@ -18,6 +18,7 @@ class MemorySupply final : public PointSupply {
   std::size_t visible_nodes() const override { return visible_nodes_; }
   void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) override;
   std::vector<PointPiece> collect(std::uint32_t most) override;
+  std::uint64_t points_under_way() const override { return points_under_way_; }
   std::uint64_t read_ahead(std::uint32_t budget) const override { return budget; }
   // They must outlive the supply.
   bool recolor(const PointSet& points) override {
@@ -38,6 +39,7 @@ class MemorySupply final : public PointSupply {
   const PointSet* points_;
   const Octree& octree_;
   std::vector<Stretch> requested_;
+  std::uint64_t points_under_way_ = 0;
   std::size_t visible_nodes_ = 0;
   std::uint64_t bytes_read_ = 0;
 };

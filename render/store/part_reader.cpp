@@ -4,6 +4,7 @@
 
 #include "render/store/disk_reads.h"
 #include "render/store/tree_ids.h"
+#include "render/store/unread.h"
 
 namespace stipple {
 PartReader::PartReader(std::shared_ptr<const TreeStore> store, ColorMap colors, double root_edge)
@@ -59,6 +60,10 @@ void PartReader::work() {
       part.failure = std::current_exception();
     }
     lock.lock();
+    if (part.failure && ++part.request.tries < kReadTries) {
+      queue_.push_back(std::move(part.request));
+      continue;
+    }
     parts_.push_back(std::move(part));
     arrived_.notify_one();
   }

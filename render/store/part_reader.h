@@ -35,10 +35,11 @@ class PartReader {
     StoredNode node;
     std::uint32_t first = 0;  // point of the node
     std::uint32_t count = 0;
+    int tries = 0;  // that failed so far
   };
   struct Part {
     Request request;
-    SlottedPoints points;  // none where reading failed
+    SlottedPoints points;  // none where reading failed, kReadTries times
     std::exception_ptr failure{};
   };
 

@@ -10,6 +10,7 @@
 #include "render/frame/camera.h"
 #include "render/frame/point_size.h"
 #include "render/store/stream_buffer.h"
+#include "render/store/unread.h"
 
 namespace stipple {
 
@@ -32,7 +33,7 @@ class PointSupply {
   // The clusters with points that `view` may see, front to back, as far as they are known without waiting. Forgets what
   // was requested before.
   virtual std::vector<VisibleCluster> visible(const View& view) = 0;
-  // Those that became known since, front to back. Throws Error when reading failed.
+  // Those that became known since, front to back.
   virtual std::vector<VisibleCluster> discovered() { return {}; }
   // Whether discovered() may have more to give, now or later.
   virtual bool searching() const { return false; }
@@ -45,8 +46,10 @@ class PointSupply {
   virtual void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) = 0;
   // Requested points that have arrived, `most` at most, each given once; they stay valid until the next call of any
   // function. While requests are under way, or clusters searched for, and none has arrived, waits for a moment before
-  // it gives nothing. Throws Error when reading failed.
+  // it gives nothing.
   virtual std::vector<PointPiece> collect(std::uint32_t most) = 0;
+  // Points requested that are still to come.
+  virtual std::uint64_t points_under_way() const = 0;
   // Points to have under way so that collect() seldom waits, for a frame of `budget` points.
   virtual std::uint64_t read_ahead(std::uint32_t budget) const = 0;
 
@@ -56,6 +59,8 @@ class PointSupply {
 
   // Bytes read from disk or main memory so far.
   virtual std::uint64_t bytes_read() const = 0;
+  // See Method::unread().
+  virtual Unread unread() const { return {}; }
 
  protected:
   // Pixels that the points of a cluster, whose box in the world is `box`, are estimated to cover.

@@ -57,6 +57,8 @@ void TreeSupply::forget_queue() {
   queue_.clear();
   arrivals_.clear();
   under_way_ = 0;
+  points_under_way_ = 0;
+  unread_ = {};
   looking_up_ -= lookups_.size();
   asked_ -= lookups_.size();
   for (const KnownTree::Lookup& lookup : lookups_) tree_.forget(lookup);
@@ -88,26 +90,29 @@ void TreeSupply::ask(const std::vector<KnownTree::Sight>& unknown) {
 
 std::vector<VisibleCluster> TreeSupply::discovered() {
   std::deque<KnownTree::Lookup> found;
+  Unread unread;
   {
     const std::lock_guard lock(mutex_);
     found.swap(found_);
   }
   std::vector<std::uint32_t> continued;
   std::vector<KnownTree::Sight> seen;
-  std::exception_ptr failure;
   for (KnownTree::Lookup& lookup : found) {
     --asked_;
     tree_.take(lookup);
     const auto distance = tree_.distance_if_seen(frustum_, lookup.index);
     if (!distance) continue;  // of a failure, too, one that sees the node may learn: it will ask again
     if (lookup.failure)
-      failure = lookup.failure;
+      unread.add(lookup.failure);
     else if (lookup.node.knowledge == KnownTree::Knowledge::continued)
       continued.push_back(lookup.index);
     else
       seen.push_back({*distance, lookup.index});
   }
-  if (failure) std::rethrow_exception(failure);
+  if (unread.parts > 0) {
+    const std::lock_guard lock(mutex_);
+    unread_.add(unread);
+  }
   const KnownTree::InSight below = tree_.look(frustum_, std::move(continued));
   ask(below.unknown);
   seen.insert(seen.end(), below.known.begin(), below.known.end());
@@ -165,6 +170,7 @@ void TreeSupply::request(std::uint32_t handle, std::uint32_t first, std::uint32_
         {tree_.node(part.node), part.first + first + at, std::min(largest, count - at), one_pixel, view_number_});
     ++under_way_;
   }
+  points_under_way_ += count;
   work_ready_.notify_all();
 }
 
@@ -172,14 +178,13 @@ std::vector<PointPiece> TreeSupply::collect(std::uint32_t most) {
   given_.clear();
   std::vector<PointPiece> pieces;
   std::unique_lock lock(mutex_);
-  arrived_.wait_for(lock, kReadPatience, [this] {
-    return !arrivals_.empty() || !found_.empty() || failure_ || (under_way_ == 0 && looking_up_ == 0);
-  });
-  if (failure_) std::rethrow_exception(failure_);
+  arrived_.wait_for(lock, kReadPatience,
+                    [this] { return !arrivals_.empty() || !found_.empty() || (under_way_ == 0 && looking_up_ == 0); });
   while (most > 0 && !arrivals_.empty()) {
     Arrival& arrival = arrivals_.front();
     const std::uint32_t count = std::min(most, static_cast<std::uint32_t>(arrival.points.size()) - arrival.given);
     most -= count;
+    points_under_way_ -= count;
     // The part of an arrival that does not fit the frame stays for the next
     const bool all = arrival.given + count == arrival.points.size();
     given_.push_back(all ? std::move(arrival) : arrival);
@@ -191,6 +196,16 @@ std::vector<PointPiece> TreeSupply::collect(std::uint32_t most) {
       arrival.given += count;
   }
   return pieces;
+}
+
+std::uint64_t TreeSupply::points_under_way() const {
+  const std::lock_guard lock(mutex_);
+  return points_under_way_;
+}
+
+Unread TreeSupply::unread() const {
+  const std::lock_guard lock(mutex_);
+  return unread_;
 }
 
 TreeSupply::Arrival TreeSupply::read(const Request& request) const {
@@ -223,13 +238,17 @@ void TreeSupply::do_lookup(std::unique_lock<std::mutex>& lock) {
   lock.unlock();
   tree_.run(lookup);
   lock.lock();
+  if (lookup.failure && lookup.tries < kReadTries) {
+    lookups_.push_back(std::move(lookup));
+    return;
+  }
   --looking_up_;
   found_.push_back(std::move(lookup));
   arrived_.notify_one();
 }
 
 void TreeSupply::do_request(std::unique_lock<std::mutex>& lock) {
-  const Request request = queue_.front();
+  Request request = queue_.front();
   queue_.pop_front();
   lock.unlock();
   Arrival arrival;
@@ -241,11 +260,17 @@ void TreeSupply::do_request(std::unique_lock<std::mutex>& lock) {
   }
   lock.lock();
   if (request.view != view_number_) return;
+  if (failure && ++request.tries < kReadTries) {
+    queue_.push_back(request);
+    return;
+  }
   --under_way_;
-  if (failure)
-    failure_ = failure;
-  else
+  if (failure) {
+    unread_.add(failure);
+    points_under_way_ -= request.count;
+  } else {
     arrivals_.push_back(std::move(arrival));
+  }
   arrived_.notify_one();
 }
 

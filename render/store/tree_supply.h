@@ -4,7 +4,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
-#include <exception>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -43,8 +42,10 @@ class TreeSupply final : public PointSupply {
   std::size_t visible_nodes() const override { return visible_nodes_; }
   void request(std::uint32_t handle, std::uint32_t first, std::uint32_t count, bool one_pixel) override;
   std::vector<PointPiece> collect(std::uint32_t most) override;
+  std::uint64_t points_under_way() const override;
   std::uint64_t read_ahead(std::uint32_t budget) const override { return 3ull * budget; }
   std::uint64_t bytes_read() const override { return store_->bytes_read() - bytes_before_; }
+  Unread unread() const override;
   // What a handle of the current view stands for; nodes keep their numbers from view to view.
   const Part& part(std::uint32_t handle) const { return parts_[handle]; }
   const StoredNode& node(std::uint32_t number) const { return tree_.node(number); }
@@ -62,6 +63,7 @@ class TreeSupply final : public PointSupply {
     std::uint32_t count;
     bool one_pixel;
     std::uint64_t view;  // which call of visible() it belongs to
+    int tries = 0;       // that failed so far
   };
   struct Arrival {
     std::vector<PackedPoint> points;
@@ -98,10 +100,11 @@ class TreeSupply final : public PointSupply {
   std::deque<KnownTree::Lookup> found_;
   std::deque<Request> queue_;
   std::deque<Arrival> arrivals_;
-  std::exception_ptr failure_;
+  Unread unread_;  // of the current view
   std::uint64_t view_number_ = 0;
-  std::size_t under_way_ = 0;   // requests queued or being read for the current view
-  std::size_t looking_up_ = 0;  // lookups queued or under way
+  std::size_t under_way_ = 0;           // requests queued or being read for the current view
+  std::uint64_t points_under_way_ = 0;  // those, and what has arrived and is not collected
+  std::size_t looking_up_ = 0;          // lookups queued or under way
   bool stop_ = false;
 
   std::vector<std::thread> threads_;

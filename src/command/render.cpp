@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "octree/core/error.h"
 #include "octree/open/open.h"
 #include "render/store/dataset.h"
 #include "src/cli/cli.h"
@@ -44,6 +45,7 @@ void run(const RenderOptions& options) {
   const Picture picture =
       mode ? draw_with_gl(options, *mode, dataset, view, point_size) : draw_reference(dataset, view, point_size);
   write_results(options, picture, dataset, view);
+  if (picture.unread.parts > 0) throw Error(picture.unread.message());
 }
 
 }  // namespace

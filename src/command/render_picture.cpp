@@ -38,13 +38,14 @@ Json stereo_json(const View& view, const std::vector<EyeState>& eyes) {
           {"right", json_of_eye(view.of_eye(1), eyes[1])}};
 }
 
-Json stats_of(const View& view, const FrameState& state, const SelectionCounts& counts) {
+Json stats_of(const View& view, const FrameState& state, const SelectionCounts& counts, const Unread& unread = {}) {
   return {{"views", view.eyes()},
           {"points_drawn", state.points_drawn},
           {"points_reprojected", state.points_reprojected},
           {"points_in_views", state.points_in_views()},
           {"frames", state.frame},
-          {"converged", state.converged},
+          {"converged", state.converged && unread.parts == 0},
+          {"parts_unread", unread.parts},
           {"ms", state.milliseconds},
           {"covered_pixels", state.covered_pixels},
           {"stereo", stereo_json(view, state.eyes)},
@@ -93,7 +94,9 @@ Picture draw_with_gl(const RenderOptions& options, Mode mode, const Dataset& dat
   const auto method = make_method(mode, dataset, method_options_of(options.draw));
   ProgressiveRenderer renderer(*method, rasterizer_of(options.draw), dataset.points.grid, point_size);
   const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
-  Picture picture{read_picture(renderer, view, shading_of(options)), stats_of(view, state, method->counts())};
+  const Unread unread = method->unread();
+  Picture picture{read_picture(renderer, view, shading_of(options)), stats_of(view, state, method->counts(), unread),
+                  unread};
   picture.stats.update(context_provenance(context));
   return picture;
 }

@@ -16,6 +16,7 @@ namespace stipple {
 struct Picture {
   FrameData frame;
   Json stats;
+  Unread unread{};  // what it lacks
 };
 
 Picture draw_reference(const Dataset& dataset, const View& view, const PointSize& point_size);

@@ -54,6 +54,9 @@ class Pane {
   // Nothing more would be drawn for this view.
   bool at_rest(const View& view) const { return !renderer_ || (view == drawn_view_ && report_.converged); }
 
+  // What the picture lacks.
+  Unread unread() const { return content_.method && !frozen_ ? content_.method->unread() : Unread{}; }
+
   // Null before the first, and where the last view had fewer eyes.
   const FeedbackTarget* frame(std::size_t eye = 0) const;
   bool empty() const { return !renderer_; }

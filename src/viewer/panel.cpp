@@ -28,6 +28,12 @@ void wrapped(const std::string& line) {
   ImGui::PopTextWrapPos();
 }
 
+void alarm(const std::string& line) {
+  ImGui::PushStyleColor(ImGuiCol_Text, {1.0f, 0.55f, 0.45f, 1.0f});
+  wrapped(line);
+  ImGui::PopStyleColor();
+}
+
 const char* phase_text(WorkStatus::Phase phase) {
   switch (phase) {
     case WorkStatus::Phase::opening:
@@ -86,10 +92,9 @@ void show_cloud(const PanelFacts& facts, PanelWishes& wishes) {
     show_recent(facts, wishes);
   }
   show_work(facts.work, wishes);
+  if (const Unread unread = stage.unread(); unread.parts > 0) alarm(unread.message());
   if (stage.error().empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, {1.0f, 0.55f, 0.45f, 1.0f});
-  wrapped(stage.error());
-  ImGui::PopStyleColor();
+  alarm(stage.error());
   if (ImGui::Button("dismiss")) wishes.dismiss_error = true;
 }
 
@@ -149,8 +154,9 @@ void show_pace(const PanelFacts& facts, PanelWishes& wishes) {
   for (const Stage::Side side : {Stage::left, Stage::right}) {
     if (side == Stage::right && !facts.stage.is_split()) break;
     const Pane& pane = facts.stage.pane(side);
+    const bool complete = done && pane.unread().parts == 0;
     text(fmt::format("{}: {} points{}", pane.mode() ? name_of(*pane.mode()) : "preview",
-                     with_thousands(pane.filled_for_view()), done ? ", complete" : ""));
+                     with_thousands(pane.filled_for_view()), complete ? ", complete" : ""));
   }
 }
 

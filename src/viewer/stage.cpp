@@ -179,6 +179,12 @@ std::uint64_t Stage::draw_more(std::uint32_t budget) {
   return drawn;
 }
 
+Unread Stage::unread() const {
+  Unread unread;
+  for (std::size_t side = 0; side < sides(); ++side) unread.add(panes_[side].unread());
+  return unread;
+}
+
 bool Stage::at_rest(const View& view) const {
   return panes_[left].at_rest(view) && (!split_ || panes_[right].at_rest(view));
 }

@@ -68,6 +68,8 @@ class Stage {
   std::uint64_t filled() const;  // by the last frame
   std::uint64_t frames() const;  // drawn ever
 
+  Unread unread() const;  // what the pictures lack, of both sides
+
   const Dataset* dataset() const { return dataset_.get(); }        // null: none is open
   const std::optional<SourceInfo>& info() const { return info_; }  // of what is open, or being read
   Grid grid() const { return panes_[left].content().grid; }        // of what frame() shows

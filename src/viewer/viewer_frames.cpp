@@ -73,7 +73,9 @@ void Viewer::draw_cloud(const Stopwatch& frame) {
     stage_.begin_again();
   }
   hover_stale_ = true;
-  if (stage_.at_rest(fine)) frames_to_show_ = kFramesAfterEvent;
+  if (!stage_.at_rest(fine)) return;
+  frames_to_show_ = kFramesAfterEvent;
+  if (stage_.unread().parts > 0) note_ = "the picture is not complete: the panel says why";
 }
 
 // Adds to the frame, as far as there is time.

@@ -84,7 +84,9 @@ void Viewer::take_screenshot_if_due() {
   frames_to_show_ = kFramesAfterEvent;
   try {
     write_screenshot(screenshot_);
-    note_ = fmt::format("{} written", screenshot_);
+    const Unread unread = stage_.unread();
+    note_ = fmt::format("{} written{}", screenshot_, unread.parts > 0 ? ", not complete" : "");
+    if (unread.parts > 0 && options_.exit_after_screenshot) throw Error(unread.message());
   } catch (const Error& e) {
     if (options_.exit_after_screenshot) throw;
     note_ = e.what();

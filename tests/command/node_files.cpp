@@ -89,15 +89,21 @@ TEST(NodeFilesCommands, RenderDrawsThemFromDisk) {
   }
 }
 
-TEST(NodeFilesCommands, RenderOfATreeThatLacksANodeIsExitCodeOne) {
-  const ScratchFolder folder, tree;
-  EptFiles().write(tree);
-  std::filesystem::remove(tree.path(EptFiles::node_file("r04", "binary")));
-  const Outcome outcome =
-      run_stipple(folder, "render " + tree.path("") + " -o " + folder.path("tree.png") + " --mode hierarchical");
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_TRUE(contains(outcome.err, "2-1-0-0.bin: there is no such file"));
-  EXPECT_FALSE(std::filesystem::exists(folder.path("tree.png")));
+TEST(NodeFilesCommands, RenderOfATreeThatLacksANodeDrawsTheRestAndIsExitCodeOne) {
+  for (const char* mode : {"hybrid", "hierarchical", "lod"}) {
+    const ScratchFolder folder, tree;
+    EptFiles().write(tree);
+    std::filesystem::remove(tree.path(EptFiles::node_file("r04", "binary")));
+    const Outcome outcome = run_stipple(folder, "render " + tree.path("") + " -o " + folder.path("tree.png") +
+                                                    " --stats " + folder.path("stats.json") + " --mode " + mode);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_TRUE(contains(outcome.err, "a part of the octree could not be read")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "2-1-0-0.bin: there is no such file")) << outcome.err;
+    EXPECT_TRUE(std::filesystem::exists(folder.path("tree.png")));
+    const Json stats = json_file(folder.path("stats.json"));
+    EXPECT_EQ(stats.at("parts_unread"), 1);
+    EXPECT_EQ(stats.at("converged"), false);
+  }
 }
 
 }  // namespace

@@ -1,50 +1,17 @@
-// Mode hybrid on a tree on disk: the pool, and what may happen to the disk.
+// Mode hybrid on a tree on disk: the pool.
 #include "render/method/tree_clusters.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <chrono>
-#include <functional>
-#include <map>
-#include <mutex>
 #include <thread>
 
-#include "octree/build/stream/tree_builder.h"
-#include "octree/core/error.h"
-#include "octree/open/open.h"
 #include "render/method/hybrid.h"
 #include "render/method/progressive_renderer.h"
-#include "src/scene/scene.h"
-#include "tests/octree/las_fixture.h"
-#include "tests/render/gl_test.h"
+#include "tests/render/city_tree.h"
 
 namespace stipple::test::render_tree_clusters {
 namespace {
-
-constexpr std::uint64_t kPoints = 60'000;
-
-// The city as a tree of small nodes and clusters, made once.
-const Dataset& city(bool loaded) {
-  static const ScratchFolder folder;
-  static const std::string path = [] {
-    std::vector<std::unique_ptr<PointSource>> sources;
-    sources.push_back(make_scene("city", kPoints, 1));
-    StreamOptions options;
-    options.leaf_capacity = 2'000;
-    options.cluster_points = 300;
-    BuildMonitor monitor;
-    build_tree(sources, folder.path("tree"), options, monitor);
-    return folder.path("tree");
-  }();
-  static const Dataset in_memory = open_dataset(path, "", {});
-  static const Dataset on_disk = open_dataset(path, "", {.points = false});
-  return loaded ? in_memory : on_disk;
-}
-
-View view_of_city(const char* camera) {
-  return view_of(city(true), camera);
-}
 
 FrameData expected(const View& view) {
   return brute_force_picture(city(true).points, RasterizerKind::compute, view);
@@ -112,7 +79,7 @@ TEST(TreeClusters, DrawEachPointAtMostOnceForAStillView) {
     EXPECT_LE(report.points_filled, 7'000u);
     filled += report.points_filled;
   }
-  EXPECT_LE(filled, kPoints);
+  EXPECT_LE(filled, kCityPoints);
 }
 
 TEST(TreeClusters, ASecondLookReadsNothingThatThePoolHolds) {
@@ -136,75 +103,8 @@ TEST(TreeClusters, WhatIsHiddenIsNotRead) {
   EXPECT_LT(read(true), read(false) * 97 / 100);  // how much less depends on how fast the disk is
 }
 
-// A tree whose reads may fail.
-class FaultyTree final : public TreeStore {
- public:
-  // Whether the n-th read of points [first, ...) of this node fails.
-  using Rule = std::function<bool(const StoredNode&, std::uint64_t first, int n)>;
-
-  FaultyTree(std::shared_ptr<const TreeStore> tree, Rule fails) : tree_(std::move(tree)), fails_(std::move(fails)) {}
-
-  const TreeInfo& info() const override { return tree_->info(); }
-  HierarchyPiece root_piece() const override { return tree_->root_piece(); }
-  HierarchyPiece read_piece(const HierarchyPiece::Continuation& where, const StoredNode& parent) const override {
-    return tree_->read_piece(where, parent);
-  }
-  StoredNode locate(const StoredNode& node) const override { return tree_->locate(node); }
-  bool reads_parts() const override { return tree_->reads_parts(); }
-  NodeDetails read_details(const StoredNode& node) const override { return tree_->read_details(node); }
-  void read_points(const StoredNode& node, std::span<const std::size_t> attributes, PointBatch& batch) const override {
-    read_part(node, 0, node.points, attributes, batch);
-  }
-  void read_part(const StoredNode& node, std::uint64_t first, std::uint64_t count,
-                 std::span<const std::size_t> attributes, PointBatch& batch) const override {
-    int n = 0;
-    {
-      const std::lock_guard lock(mutex_);
-      n = ++reads_[{name_of(node), first}];
-    }
-    if (fails_(node, first, n)) throw Error(name_of(node) + ": the disk is gone");
-    tree_->read_part(node, first, count, attributes, batch);
-  }
-
- private:
-  std::shared_ptr<const TreeStore> tree_;
-  Rule fails_;
-  mutable std::mutex mutex_;
-  mutable std::map<std::pair<std::string, std::uint64_t>, int> reads_;
-};
-
-TEST(TreeClusters, AFailedReadIsTriedAgain) {
-  const auto tree =
-      std::make_shared<FaultyTree>(city(false).tree, [](const StoredNode&, std::uint64_t, int n) { return n <= 2; });
-  const View view = view_of_city("oblique");
-  EXPECT_TRUE(same_picture(converged(*hybrid_of(tree, 300), view, 5'000), expected(view)));
-}
-
-TEST(TreeClusters, WhatCannotBeReadIsReportedWhenAllElseIsDrawn) {
-  const auto tree = std::make_shared<FaultyTree>(
-      city(false).tree, [](const StoredNode& node, std::uint64_t, int) { return node.level == 2 && node.cell.x == 1; });
-  const auto method = hybrid_of(tree, 5'000);
-  ProgressiveRenderer renderer(*method, RasterizerKind::compute, city(false).points.grid);
-  const View view = view_of_city("aerial");
-  std::string message;
-  for (FrameReport report; !report.converged && message.empty();) try {
-      report = renderer.draw(view, 5'000);
-    } catch (const Error& error) {
-      message = error.what();
-    }
-  EXPECT_NE(message.find("the disk is gone"), std::string::npos) << message;
-  const FrameData whole = expected(view);
-  const FrameData picture = renderer.read();
-  std::size_t right = 0;
-  for (std::size_t i = 0; i < whole.ids.size(); ++i) right += picture.ids[i] == whole.ids[i];
-  EXPECT_LT(right, whole.ids.size());
-  EXPECT_GT(right, whole.ids.size() * 3 / 5);
-  // The picture stays, and the program goes on
-  EXPECT_TRUE(renderer.draw(view, 5'000).converged);
-}
-
 TEST(TreeClusters, ASlowDiskKeepsNoFrameWaiting) {
-  const auto tree = std::make_shared<FaultyTree>(city(false).tree, [](const StoredNode& node, std::uint64_t, int) {
+  const auto tree = std::make_shared<FaultyTree>(city(false).tree, [](const StoredNode& node, int) {
     if (node.level >= 2) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     return false;
   });

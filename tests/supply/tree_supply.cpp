@@ -139,7 +139,7 @@ TEST(TreeSupplyOnDisk, NothingWaitsForTheDisk) {
   EXPECT_EQ(points_read(supply), files.tree.points());
 }
 
-TEST(TreeSupplyOnDisk, APieceThatCannotBeReadIsAnErrorOfTheViewThatSeesIt) {
+TEST(TreeSupplyOnDisk, APieceThatCannotBeReadIsMissedByTheViewThatSeesIt) {
   const ScratchFolder folder;
   Potree1Files files;
   files.version = "1.8";
@@ -149,8 +149,13 @@ TEST(TreeSupplyOnDisk, APieceThatCannotBeReadIsAnErrorOfTheViewThatSeesIt) {
   // Child 0 is at the low corner, child 7 at the high one
   supply->visible(from_above(kPlaneCube, 0.2, {0.25, 0.25}));
   finish(*supply);
+  EXPECT_EQ(supply->unread().parts, 0u);
   supply->visible(from_above(kPlaneCube, 0.2, {0.75, 0.75}));
-  EXPECT_TRUE(contains(error_of([&] { finish(*supply); }), "data/r/7/r7.hrc: there is no such file"));
+  finish(*supply);
+  EXPECT_EQ(supply->unread().parts, 1u);
+  EXPECT_TRUE(contains(supply->unread().message(), "data/r/7/r7.hrc: there is no such file"));
+  supply->visible(from_above(kPlaneCube, 0.2, {0.25, 0.25}));
+  EXPECT_EQ(supply->unread().parts, 0u);
 }
 
 TEST(TreeSupplyOnDisk, APieceThatLeadsBackIsAnErrorNotATreeWithoutEnd) {
@@ -166,7 +171,8 @@ TEST(TreeSupplyOnDisk, APieceThatLeadsBackIsAnErrorNotATreeWithoutEnd) {
   EXPECT_TRUE(contains(error_of([&] { read_whole_hierarchy(*open_tree(folder.path(""))); }), "of another piece"));
   const auto supply = supply_of(folder.path(""));
   supply->visible(from_above(kPlaneCube, 4.0, {0.5, 0.5}));
-  EXPECT_TRUE(contains(error_of([&] { finish(*supply); }), "of another piece"));
+  finish(*supply);
+  EXPECT_TRUE(contains(supply->unread().first, "of another piece"));
 }
 
 TEST(TreeSupplyOnDisk, EveryNodeHasIdsOfItsOwn) {

@@ -9,6 +9,7 @@
 #include "octree/open/open.h"
 #include "src/camera/camera_file.h"
 #include "src/run/median.h"
+#include "tests/octree/node_files.h"
 #include "tests/window/viewer_window.h"
 
 namespace stipple::test::window_viewer {
@@ -208,6 +209,36 @@ TEST_F(ViewerWindow, AnOctreeOnDiskIsDrawnFromThere) {
   display().press("F1");
   ASSERT_TRUE(until([&] { return viewer_->stage().pane().mode() == Mode::unstructured && viewer_->at_rest(); }));
   EXPECT_EQ(viewer_->picture().rgb, from_disk.rgb);
+}
+
+TEST_F(ViewerWindow, GoesOnWithoutThePartOfAnOctreeThatCannotBeRead) {
+  EptFiles().write(folder_);
+  std::filesystem::remove(folder_.path(EptFiles::node_file("r04", "binary")));
+  start(8.0, folder_.path("ept.json"));
+  ASSERT_TRUE(complete());
+  EXPECT_EQ(viewer_->stage().unread().parts, 1u);
+  EXPECT_EQ(viewer_->note(), "the picture is not complete: the panel says why");
+  for (const auto& [key, mode] : {std::pair{"F2", Mode::hierarchical}, {"F5", Mode::lod}, {"F3", Mode::hybrid}}) {
+    display().press(key);
+    ASSERT_TRUE(until([&, wanted = mode] {
+      EXPECT_TRUE(covered()) << "no frame is blank";
+      return viewer_->stage().pane().mode() == wanted && viewer_->at_rest();
+    })) << key;
+    EXPECT_EQ(viewer_->stage().unread().parts, 1u) << key;
+  }
+  display().button(1, true);
+  for (int i = 1; i <= 5; ++i) {
+    display().move(kCentreX + 5 * i, kCentreY);
+    steps(2);
+    EXPECT_TRUE(covered()) << "no frame is blank";
+  }
+  display().button(1, false);
+  ASSERT_TRUE(complete());
+  // What needs all of the points cannot be had, and the picture stays
+  display().press("F1");
+  ASSERT_TRUE(until([&] { return !viewer_->stage().error().empty(); }));
+  EXPECT_EQ(viewer_->stage().pane().mode(), Mode::hybrid);
+  EXPECT_TRUE(covered());
 }
 
 TEST_F(ViewerWindow, BuildsAnOctreeInTheBackgroundAndOpensIt) {
