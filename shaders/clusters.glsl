@@ -8,6 +8,7 @@
 //   expand_stretch the places of a stretch's points
 //   measure_yield  how many of a stretch's points are seen once they are drawn
 //   test_shards    which shards of its cluster are behind what is drawn then
+//   count_skips    what was left out, when somebody asks
 struct ClusterBox {
   ivec3 low;    // tight, closed
   uint place;   // of its first point in its chunk's buffer, and the chunk above kPlaceBits

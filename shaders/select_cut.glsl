@@ -5,6 +5,7 @@ layout(local_size_x = 1) in;
 
 layout(std430, binding = 5) buffer Summary { Totals totals; uvec2 chunk_begins[MOST_CHUNKS]; uint urgencies[]; };
 layout(location = 0) uniform uint budget;
+layout(location = 1) uniform bool joins_rounds;
 
 void main() {
   uint left = budget;
@@ -16,5 +17,5 @@ void main() {
   }
   totals.cut = urgency;
   totals.allowance = left;
-  totals.factor = urgency < 0 ? float(budget) / float(max(budget - left, 1u)) : 1.0;
+  totals.factor = urgency < 0 && joins_rounds ? float(budget) / float(max(budget - left, 1u)) : 1.0;
 }

@@ -17,6 +17,7 @@ layout(location = 0) uniform uint count;         // clusters to do
 layout(location = 1) uniform uint first;         // of the open clusters
 layout(location = 2) uniform bool all;           // not of the open clusters, but of all
 layout(location = 4) uniform float root_edge;    // world units
+layout(location = 7) uniform bool culls;         // what is outside of the frustum
 #ifdef TWO_EYES
 layout(location = 5) uniform uint second_silhouettes;  // place of the first of the second eye's
 layout(location = 6) uniform vec3 to_second_eye;       // from the first, whose view is bound; world units
@@ -29,6 +30,13 @@ float estimated_pixels(uint cluster, float distance) {
   uint whole = min(uint(level), LEVELS - 2);
   uint at = cluster * LEVELS + whole;
   return exp2(mix(log_pixels[at], log_pixels[at + 1u], level - float(whole)));
+}
+
+// What is outside and is not culled may be seen, for all that is known.
+Outline outline_to_test(vec3 low, vec3 high, vec3 reach) {
+  Outline outline = outline_of(low, high, reach);
+  if (outline.outside && !culls) outline.outside = outline.bounded = false;
+  return outline;
 }
 
 void main() {
@@ -49,10 +57,10 @@ void main() {
   vec3 low = world_from_eye(box.low);
   vec3 high = world_from_eye(box.high);
   vec3 reach = max(abs(low), abs(high));
-  Outline outline = outline_of(low, high, reach);
+  Outline outline = outline_to_test(low, high, reach);
   bool outside = outline.outside;
 #ifdef TWO_EYES
-  Outline second = outline_of(low - to_second_eye, high - to_second_eye, reach + abs(to_second_eye));
+  Outline second = outline_to_test(low - to_second_eye, high - to_second_eye, reach + abs(to_second_eye));
   silhouettes[second_silhouettes + i] = silhouette_of(second);
   outside = outside && second.outside;
 #endif

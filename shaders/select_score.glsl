@@ -15,12 +15,14 @@ layout(location = 0) uniform uint count;  // clusters to do
 layout(location = 1) uniform bool by_yield;
 layout(location = 2) uniform float near;  // of the view
 layout(location = 3) uniform bool all;    // not of the open clusters, but of all
+layout(location = 4) uniform bool by_density;
 
 // What another point of a cluster is expected to mend, 1 at most. Of those that may be seen each is as likely as the others to be
 // the one that its pixel shows in the end; and pixels that nothing covers yet are worth more. That alone is as good as what was
 // measured of the cluster's points where surfaces hide each other, and takes 15 % fewer until 40 dB over open land.
 float worth_of(ClusterState state, Prospect prospect, uint count) {
   const float kUncovered = 2.0;  // times a pixel that shows the wrong point
+  if (!by_density) prospect.pixels = float(count);
   float last = min(prospect.pixels / float(max(points_before(count, hidden_shards(state)), 1u)), 1.0);
   float first = exp(-float(state.drawn) / prospect.pixels);
   // What is nearly hidden waits: it may soon be hidden wholly
@@ -49,7 +51,7 @@ void main() {
   if (state.status != kOpen || rest == 0u) return;
   Prospect prospect = prospects[i];
   uint least = max(kLeast, state.drawn);
-  uint wish = min(uint(clamp(ceil(0.5 * prospect.pixels), float(least), 65536.0)), rest);
+  uint wish = by_density ? min(uint(clamp(ceil(0.5 * prospect.pixels), float(least), 65536.0)), rest) : rest;
   uint urgency = urgency_of(state, prospect, boxes[i].count);
   atomicOr(wishing[i / BLOCK], 1u << i % BLOCK);
   wishes[i] = urgency << kWishBits | wish;

@@ -14,6 +14,7 @@ layout(std430, binding = 5) buffer InSight { Sight sight; };
 layout(std430, binding = 7) readonly buffer Stretches { Stretch stretches[]; };
 layout(location = 0) uniform uint stretch_count;
 layout(location = 1) uniform uint eyes;  // those that this view stands for, a bit each
+layout(location = 2) uniform bool culls;  // what is outside of the frustum
 
 void main() {
   uint s = invocation_index();
@@ -33,7 +34,7 @@ void main() {
     vec3 to;
     shard_box(shards[i * SHARDS + shard], low, high, from, to);
     Outline outline = outline_of_small(from, to, reach);
-    if (outline.outside || open_share(silhouette_of(outline), 1u) == 0.0) hidden |= 1u << shard;
+    if (outline.outside ? culls : open_share(silhouette_of(outline), 1u) == 0.0) hidden |= 1u << shard;
   }
   if ((eyes & 1u) != 0u) state.hidden |= hidden;
   if ((eyes & 2u) != 0u) state.hidden |= hidden << SHARDS;

@@ -159,31 +159,35 @@ void ClusterSelector::close_eyes() {
 }
 
 bool ClusterSelector::sees_depth() const {
-  return options_.skip_occluded && std::all_of(eyes_.begin(), eyes_.begin() + static_cast<std::ptrdiff_t>(eyes_open_),
-                                               [](const Eye& eye) { return eye.drawn != nullptr; });
+  return options_.skips.occlusion && std::all_of(eyes_.begin(), eyes_.begin() + static_cast<std::ptrdiff_t>(eyes_open_),
+                                                 [](const Eye& eye) { return eye.drawn != nullptr; });
 }
 
 ClusterSelector::Result ClusterSelector::select(const View& view, std::uint32_t budget) {
   const bool new_view = !selected_;
   selected_ = true;
   taken_.clear();
+  if (new_view) view_points_ = rounds_joined_ = 0;
   if (table_->size == 0) return {};
-  const Tested tested{table_->boxes, table_->log_pixels, states_,  sight_,
-                      silhouettes_,  prospects_,         new_view, table_->capacity};
+  Tested tested{table_->boxes, table_->log_pixels, states_,  sight_,
+                silhouettes_,  prospects_,         new_view, table_->capacity};
   if (new_view) {
     sight_.fill(0);
     outline(tested, 0, table_->size);
   } else {
     outline(tested, open_ - added_, added_);
   }
-  if (sees_depth() && (seen_anew_ || added_ > 0)) test(tested, open_);
+  tested.all = new_view || !options_.skips.done;
+  const std::uint32_t looked_at = tested.all ? table_->size : open_;
+  if (sees_depth() && (seen_anew_ || added_ > 0)) test(tested, looked_at);
   seen_anew_ = false;
   added_ = 0;
-  score(view, new_view ? table_->size : open_, new_view);
+  score(view, looked_at, tested.all);
   rank(std::min(budget, options_.largest_budget));
   Result result = read_back();
   open_ = result.open;
   taken_ = result.chunks;
+  view_points_ += result.points;
 
   expand_.use();
   places_.bind_storage(2);
@@ -207,6 +211,7 @@ void ClusterSelector::outline(const Tested& tested, std::uint32_t first, std::ui
   glUniform1i(2, tested.all ? 1 : 0);
   glUniform1i(3, DepthPyramid::kMostLevels);
   glUniform1f(4, static_cast<float>(table_->root_edge));
+  glUniform1i(7, options_.skips.frustum ? 1 : 0);
   if (eyes_open_ == 2) {
     glUniform1ui(5, tested.capacity);
     glUniform3fv(6, 1, &to_second_eye_.x);
@@ -283,6 +288,37 @@ std::vector<SightedBox> ClusterSelector::boxes() const {
   return boxes;
 }
 
+SkipCounts ClusterSelector::skipped() const {
+  // As in the shader
+  struct {
+    std::uint32_t clusters_outside, points_outside, clusters_hidden, clusters_done, points_in_sight, points_open,
+        points_put_off;
+  } counted{};
+  if (!selected_ || table_->size == 0) return {};
+  GpuBuffer counts(sizeof counted);
+  counts.fill(0);
+  const Program count = compile("count_skips.glsl");
+  count.use();
+  table_->boxes.bind_storage(0);
+  states_.bind_storage(1);
+  counts.bind_storage(2);
+  prospects_.bind_storage(7);
+  glUniform1ui(0, table_->size);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  dispatch_items(table_->size, 64);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  counts.read(0, &counted, sizeof counted);
+  // Of clusters that gave way to others only what they drew is known
+  const std::uint64_t shown = view_points_ + counted.points_open;
+  return {.clusters_outside = counted.clusters_outside,
+          .points_outside = counted.points_outside,
+          .clusters_hidden = counted.clusters_hidden,
+          .points_hidden = std::max<std::uint64_t>(counted.points_in_sight, shown) - shown,
+          .points_put_off = counted.points_put_off,
+          .clusters_done = counted.clusters_done,
+          .rounds_joined = rounds_joined_};
+}
+
 std::vector<bool> ClusterSelector::hidden(std::span<const GridBox> boxes) {
   if (!probe_) {
     probe_.emplace(Probe{GpuBuffer(kMostProbed * sizeof(ClusterTable::Row)),
@@ -321,9 +357,10 @@ void ClusterSelector::score(const View& view, std::uint32_t count, bool all) {
   prospects_.bind_storage(7);
   score_.use();
   glUniform1ui(0, count);
-  glUniform1i(1, options_.by_yield ? 1 : 0);
+  glUniform1i(1, options_.skips.yield ? 1 : 0);
   glUniform1f(2, static_cast<float>(view.near));
   glUniform1i(3, all ? 1 : 0);
+  glUniform1i(4, options_.skips.density ? 1 : 0);
   dispatch_items(count, 64);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -334,6 +371,7 @@ void ClusterSelector::rank(std::uint32_t budget) {
   stretches_.bind_storage(7);
   cut_.use();
   glUniform1ui(0, budget);
+  glUniform1i(1, options_.skips.rounds ? 1 : 0);
   glDispatchCompute(1, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   const auto blocks = static_cast<GLuint>(blocks_of(table_->size));
@@ -361,6 +399,7 @@ ClusterSelector::Result ClusterSelector::read_back() {
   head.begins[chunks] = {head.totals.points, head.totals.stretches};
   Sight sight{};
   sight_.read(0, &sight, sizeof sight);
+  if (head.totals.factor > 1.0f) ++rounds_joined_;
   Result result{{}, head.totals.points, head.totals.open, sight.visible, sight.occluded};
   for (std::size_t c = 0; c < chunks; ++c) {
     const ChunkBegin& begin = head.begins[c];
@@ -371,7 +410,7 @@ ClusterSelector::Result ClusterSelector::read_back() {
 }
 
 void ClusterSelector::learn_yield(const FeedbackTarget& frame) {
-  if (!options_.by_yield) return;
+  if (!options_.skips.yield) return;
   yield_.use();
   frame.ids().bind(1);
   states_.bind_storage(2);
@@ -392,7 +431,7 @@ void ClusterSelector::learn_yield(const FeedbackTarget& frame) {
 void ClusterSelector::see(const FeedbackTarget& frame, std::size_t eye) {
   eyes_[eye].drawn = &frame;
   seen_anew_ = true;
-  if (!options_.skip_occluded) return;
+  if (!options_.skips.occlusion) return;
   eyes_[eye].pyramid.build(frame);
   if (!selected_) return;
   test_shards(eye);
@@ -408,6 +447,7 @@ void ClusterSelector::test_shards(std::size_t eye) {
   stretches_.bind_storage(7);
   glUniform1ui(0, stretches());
   glUniform1ui(1, eyes_open_ == 1 ? 3u : 1u << eye);
+  glUniform1i(2, options_.skips.frustum ? 1 : 0);
   glUniform1i(3, DepthPyramid::kMostLevels);
   dispatch_items(stretches(), 64);
 }

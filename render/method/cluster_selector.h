@@ -9,6 +9,7 @@
 #include "render/frame/camera.h"
 #include "render/frame/depth_pyramid.h"
 #include "render/method/sighted_box.h"
+#include "render/method/skips.h"
 #include "render/store/cluster_table.h"
 
 namespace stipple {
@@ -25,8 +26,7 @@ class ClusterSelector {
  public:
   struct Options {
     std::uint32_t largest_budget;
-    bool skip_occluded;
-    bool by_yield;
+    Skips skips{};
   };
   // Of one chunk.
   struct Taken {
@@ -67,6 +67,8 @@ class ClusterSelector {
   std::vector<bool> hidden(std::span<const GridBox> boxes);
   // The clusters in sight. Waits for the GPU.
   std::vector<SightedBox> boxes() const;
+  // Of this view so far. Waits for the GPU.
+  SkipCounts skipped() const;
   // Whether hidden() can tell: something was drawn in this view.
   bool sees_depth() const;
 
@@ -138,6 +140,8 @@ class ClusterSelector {
   std::uint32_t added_ = 0;        // of them, since
   bool selected_ = false;          // in this view
   bool seen_anew_ = false;         // see() was called since the last select()
+  std::uint64_t view_points_ = 0;  // selected in this view
+  std::uint64_t rounds_joined_ = 0;
   Looks looks_of_one_;
   std::optional<Looks> looks_of_two_;  // once a view had two eyes
   Program score_;

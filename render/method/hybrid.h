@@ -15,12 +15,12 @@ namespace stipple {
 // GPU, all of them or as many as there is room for.
 class Hybrid final : public Method {
  public:
-  // `keep_still` as in MethodOptions.
-  Hybrid(std::unique_ptr<ClusterSource> clusters, const ClusterSelector::Options& options, bool keep_still = true)
-      : clusters_(std::move(clusters)), selector_(clusters_->table(), options), keep_still_(keep_still) {}
+  Hybrid(std::unique_ptr<ClusterSource> clusters, const ClusterSelector::Options& options)
+      : clusters_(std::move(clusters)), selector_(clusters_->table(), options), skips_(options.skips) {}
 
   Carry carry() const override { return Carry::vertices; }
-  bool keeps_still_view() const override { return keep_still_; }
+  bool keeps_still_view() const override { return skips_.still; }
+  bool draws_on() const override { return !skips_.converged; }
   void forget() override { selector_.forget(); }
   void start_view(const View&) override;
   bool selects_by_picture() const override { return true; }
@@ -30,6 +30,7 @@ class Hybrid final : public Method {
   void frame_drawn(const FeedbackTarget& frame, std::size_t eye) override;
   bool finished() const override { return selected_ && open_ == 0 && clusters_->finished(); }
   SelectionCounts counts() const override;
+  std::optional<SkipCounts> skipped() const override { return selector_.skipped(); }
   Unread unread() const override { return clusters_->unread(); }
   std::optional<std::vector<ColoredPoints>> colored() const override { return clusters_->colored(); }
   // Of a tree on disk, those that are on the GPU.
@@ -38,7 +39,7 @@ class Hybrid final : public Method {
  private:
   std::unique_ptr<ClusterSource> clusters_;
   ClusterSelector selector_;
-  bool keep_still_;
+  Skips skips_;
   SelectionCounts counts_;
   View view_;
   std::uint32_t open_ = 0;  // clusters with points left for this view

@@ -33,7 +33,7 @@ void check_room(Mode mode, std::size_t points, std::uint64_t bytes, const Memory
 }
 
 ClusterSelector::Options selector_options(const MethodOptions& options, std::uint32_t budget) {
-  return {.largest_budget = budget, .skip_occluded = options.skip_occluded, .by_yield = options.by_yield};
+  return {.largest_budget = budget, .skips = options.skips};
 }
 
 // Throws Error where there is too little memory for mode hybrid; else gives the budget that it is made for.
@@ -54,7 +54,7 @@ std::uint32_t check_hybrid(const PointSet& points, const MethodOptions& options)
 std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions& options) {
   const std::uint32_t budget = check_hybrid(points, options);
   return std::make_unique<Hybrid>(std::make_unique<WholeCloud>(upload_clusters(points)),
-                                  selector_options(options, budget), options.keep_still);
+                                  selector_options(options, budget));
 }
 
 // GPU memory for the pool of a tree on disk, where no limit is given: 50 million points.
@@ -78,9 +78,10 @@ std::unique_ptr<Method> make_hybrid(const Dataset& dataset, const MethodOptions&
                     gpu - for_slots + slot_bytes, gpu));
   return std::make_unique<Hybrid>(
       std::make_unique<TreeClusters>(dataset.tree, dataset.colors, dataset.bytes_to_load,
-                                     TreeClusters::Room{.slots = static_cast<std::uint32_t>(slots),
-                                                        .points_ahead = options.limits.main / kBytesPerStreamedPoint}),
-      selector_options(options, budget), options.keep_still);
+                                     TreeClusters::Options{.slots = static_cast<std::uint32_t>(slots),
+                                                           .points_ahead = options.limits.main / kBytesPerStreamedPoint,
+                                                           .all_attributes = !options.skips.attributes}),
+      selector_options(options, budget));
 }
 
 // The pool has room for twice what a frame draws: what comes while the camera moves finds what goes.
@@ -143,9 +144,10 @@ std::string mode_names() {
   return names;
 }
 
-DatasetNeeds needs_of(Mode mode) {
+DatasetNeeds needs_of(Mode mode, const Skips& skips) {
   const bool nodes = mode == Mode::hierarchical || mode == Mode::lod;
-  return {.points = !nodes && mode != Mode::hybrid, .octree = nodes};
+  const bool hybrid = mode == Mode::hybrid;
+  return {.points = hybrid ? !skips.nodes : !nodes, .octree = nodes, .all_attributes = hybrid && !skips.attributes};
 }
 
 std::unique_ptr<Method> make_method(Mode mode, const PointSet& points, const Octree* octree,
@@ -183,14 +185,14 @@ std::unique_ptr<Method> make_method(Mode mode, const Dataset& dataset, const Met
         std::make_unique<TreeSupply>(dataset.tree, dataset.colors, dataset.bytes_to_load, options.density),
         budget_within(options.limits, options.largest_budget));
   if (mode == Mode::lod && dataset.tree) return make_lod(dataset, options);
-  if (mode == Mode::hybrid && dataset.tree) return make_hybrid(dataset, options);
+  if (mode == Mode::hybrid && dataset.tree && options.skips.nodes) return make_hybrid(dataset, options);
   return make_method(mode, dataset.points, dataset.octree ? &*dataset.octree : nullptr, options);
 }
 
 std::unique_ptr<Method> make_hybrid(const PointSet& points, const ClusterCut& cut, const MethodOptions& options) {
   const std::uint32_t budget = check_hybrid(points, options);
   return std::make_unique<Hybrid>(std::make_unique<WholeCloud>(upload_clusters(points, cut)),
-                                  selector_options(options, budget), options.keep_still);
+                                  selector_options(options, budget));
 }
 
 }  // namespace stipple

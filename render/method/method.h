@@ -14,6 +14,7 @@
 #include "render/frame/camera.h"
 #include "render/frame/point_size.h"
 #include "render/method/sighted_box.h"
+#include "render/method/skips.h"
 #include "render/raster/rasterizer.h"
 #include "render/store/cluster_cut.h"
 #include "render/store/color_upload.h"
@@ -46,8 +47,9 @@ struct SelectionCounts {
   std::uint64_t clusters_far{};
   std::uint64_t clusters_near{};
   std::uint64_t clusters_across{};
-  double pixels_estimated{};   // hierarchical: that the clusters in sight can cover, by its estimate of their density
-  std::uint64_t bytes_read{};  // from disk, the opening of the tree included, or streamed from main memory to the GPU
+  double pixels_estimated{};    // hierarchical: that the clusters in sight can cover, by its estimate of their density
+  std::uint64_t bytes_read{};   // from disk, the opening of the tree included, or streamed from main memory to the GPU
+  std::uint64_t points_read{};  // hybrid, of a tree on disk
 };
 
 // Counts a cluster among those.
@@ -62,6 +64,8 @@ class Method {
   virtual Carry carry() const = 0;
   // Whether a frame of a still view goes on from the last one as it stands, instead of carrying it into an empty one.
   virtual bool keeps_still_view() const { return false; }
+  // Whether a still view is drawn on when it has finished.
+  virtual bool draws_on() const { return false; }
   // Nothing is carried into the next frame: it starts from an empty target, as the first did.
   virtual void forget() {}
   // How large points are drawn from the next view on.
@@ -89,6 +93,8 @@ class Method {
   // lod, which stops at the budget.
   virtual bool finished() const = 0;
   virtual SelectionCounts counts() const { return {}; }
+  // What was left out of this view; null where the method does not count it. May wait for the GPU.
+  virtual std::optional<SkipCounts> skipped() const { return std::nullopt; }
   // Of a tree on disk, what this view needs and could not be read: the picture does without. The next view asks again.
   virtual Unread unread() const { return {}; }
   // The points on the GPU that it draws from, all of them: new colours may be painted on them (ColorUpload). Nothing:
@@ -111,7 +117,7 @@ std::optional<Mode> mode_named(std::string_view name);
 // All of them, separated by commas.
 std::string mode_names();
 // What the mode draws from: all points in memory, or an octree, which may stay on disk.
-DatasetNeeds needs_of(Mode mode);
+DatasetNeeds needs_of(Mode mode, const Skips& skips = {});
 
 // The GPU steers the points a frame, as BudgetController does, to this time by its own clock.
 struct GpuSteering {
@@ -124,9 +130,7 @@ struct MethodOptions {
   std::uint64_t seed = 0;                  // of the shuffle
   std::uint32_t largest_budget = 1 << 20;  // points select() may be asked for; limits may allow fewer
   MemoryLimits limits{};
-  bool skip_occluded = true;                             // hybrid: leave out clusters that are wholly hidden
-  bool by_yield = true;                                  // hybrid: clusters whose points are seen go first
-  bool keep_still = true;                                // hybrid: a frame of a still view adds to the last one
+  Skips skips{};                                         // hybrid
   bool carry_indices = false;                            // unstructured: as S18, not as S19
   DensityEstimate density = DensityEstimate::box_count;  // hierarchical: how many points are worth a round
   std::optional<GpuSteering> steering{};                 // unstructured: without it select() has the budget

@@ -154,7 +154,7 @@ FrameReport ProgressiveRenderer::draw(const View& view, std::uint32_t budget) {
   SteeredRound* const steered = method_->steered();
   if (steered) steered->hear();
   // A view of nothing is finished before it begins, but the last view's picture must go
-  if (view_drawn_ && method_->finished())
+  if (view_drawn_ && method_->finished() && !method_->draws_on())
     return report_ = {.points_filled = steered ? steered->take_points() : 0, .converged = true, .budget = budget};
 
   begin_frame();

@@ -16,12 +16,17 @@ constexpr std::uint64_t kLeastPoints = 65'536;  // of a frame's uploads
 }  // namespace
 
 TreeClusters::TreeClusters(std::shared_ptr<const TreeStore> store, const ColorMap& colors, std::uint64_t bytes_before,
-                           const Room& room)
+                           const Options& options)
     : store_(store),
       supply_(store, colors, bytes_before),
-      reader_(store, colors, store->info().cube.edge),
-      pool_(room.slots, store->info().cube.edge),
-      points_ahead_(room.points_ahead) {}
+      reader_(store, colors, store->info().cube.edge, options.all_attributes),
+      pool_(options.slots, store->info().cube.edge),
+      points_ahead_(options.points_ahead) {}
+
+void TreeClusters::count(SelectionCounts& counts) const {
+  counts.bytes_read = supply_.bytes_read();
+  counts.points_read = points_read_;
+}
 
 void TreeClusters::start_view(const View& view) {
   ++view_number_;
@@ -109,6 +114,7 @@ void TreeClusters::receive(bool patient) {
       continue;
     }
     arrived_points_ += part.request.count;
+    points_read_ += part.request.count;
     arrivals_.push_back({part.request.key, std::move(part.points), part.request.count});
   }
 }

@@ -22,23 +22,24 @@ namespace stipple {
 // A view does without what cannot be read.
 class TreeClusters final : public ClusterSource {
  public:
-  struct Room {
+  struct Options {
     std::uint32_t slots = 0;         // of the pool
     std::uint64_t points_ahead = 0;  // in main memory on their way to the pool, in parts of kLargestPart points
+    bool all_attributes = false;     // see DatasetNeeds
   };
   // Points of a part at most, where the tree is read in parts.
   static constexpr std::uint32_t kLargestPart = 32'768;
 
   // `bytes_before`: see TreeSupply.
   TreeClusters(std::shared_ptr<const TreeStore> store, const ColorMap& colors, std::uint64_t bytes_before,
-               const Room& room);
+               const Options& options);
 
   const ClusterTable& table() const override { return pool_.table(); }
   void start_view(const View& view) override;
   void load(std::uint32_t budget, ClusterSelector& selector) override;
   bool finished() const override;
   Unread unread() const override;
-  void count(SelectionCounts& counts) const override { counts.bytes_read = supply_.bytes_read(); }
+  void count(SelectionCounts& counts) const override;
 
  private:
   using Key = PartKey;
@@ -86,6 +87,7 @@ class TreeClusters final : public ClusterSource {
   Unread unread_;                            // parts
   std::deque<Arrival> arrivals_;
   std::uint64_t arrived_points_ = 0;
+  std::uint64_t points_read_ = 0;  // ever
   std::unordered_map<Key, Resident> residents_;
 };
 

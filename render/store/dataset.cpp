@@ -38,6 +38,13 @@ void to_store_order(PointSet& set, const Octree& octree) {
   set.ids = octree.order;
 }
 
+std::vector<std::string> names_to_read(const ColorMap& colors, const Schema& schema, const DatasetNeeds& needs) {
+  if (!needs.all_attributes) return attribute_names_of(colors, schema);
+  std::vector<std::string> names;
+  for (const auto& attribute : schema) names.push_back(attribute.name);
+  return names;
+}
+
 // The points of the root, or of the nodes at which the tree begins, as a cloud of their own, with these attributes.
 Cloud root_of(const TreeStore& tree, const std::vector<std::size_t>& attributes) {
   Cloud cloud;
@@ -71,7 +78,7 @@ Dataset open_dataset(const std::string& path, const ColorChoice& color, const Da
   if (!is_tree(path)) {
     const auto source = open_source(path);
     check_memory(source->info(), needs.octree, limits);
-    return load_dataset(*source, color, needs.octree);
+    return load_dataset(*source, color, needs);
   }
   const Stopwatch watch;
   Dataset dataset;
@@ -87,7 +94,7 @@ Dataset open_dataset(const std::string& path, const ColorChoice& color, const Da
     const TreeSource source(dataset.tree);
     dataset.info = source.info();
     dataset.points =
-        make_point_set(load_cloud(source, attribute_names_of(dataset.colors, dataset.info.schema)), dataset.colors);
+        make_point_set(load_cloud(source, names_to_read(dataset.colors, dataset.info.schema, needs)), dataset.colors);
     dataset.points.ids = ids_of(source.nodes());
     dataset.bytes_to_load = dataset.tree->bytes_read();
   } else {
@@ -102,20 +109,20 @@ Dataset open_dataset(const std::vector<std::string>& paths, const ColorChoice& c
   if (paths.size() == 1) return open_dataset(paths.front(), color, needs, limits);
   const auto source = open_source(paths);
   check_memory(source->info(), needs.octree, limits);
-  return load_dataset(*source, color, needs.octree);
+  return load_dataset(*source, color, needs);
 }
 
-Dataset load_dataset(const PointSource& source, const ColorChoice& color, bool with_octree) {
+Dataset load_dataset(const PointSource& source, const ColorChoice& color, const DatasetNeeds& needs) {
   Dataset dataset;
   const Stopwatch watch;
   dataset.info = source.info();
   const std::string chosen = choose_color(dataset.info.schema, color.attribute);
   const ColorMap unstretched = color.complete({.attribute = chosen});
-  const Cloud cloud = load_cloud(source, attribute_names_of(unstretched, dataset.info.schema));
+  const Cloud cloud = load_cloud(source, names_to_read(unstretched, dataset.info.schema, needs));
   dataset.colors = color.complete(map_colors(cloud, chosen));
   dataset.points = make_point_set(cloud, dataset.colors);
   dataset.load_seconds = watch.seconds();
-  if (with_octree) add_octree(dataset);
+  if (needs.octree) add_octree(dataset);
   return dataset;
 }
 

@@ -39,11 +39,13 @@ struct Dataset {
 struct DatasetNeeds {
   bool points = true;   // all points in memory; of a file they always are
   bool octree = false;  // an octree, in memory where the input is none itself
+  // Read those that are not shown as well, and leave them aside: to see what that takes.
+  bool all_attributes = false;
 };
 
 // What serves both.
 inline DatasetNeeds operator|(const DatasetNeeds& a, const DatasetNeeds& b) {
-  return {a.points || b.points, a.octree || b.octree};
+  return {a.points || b.points, a.octree || b.octree, a.all_attributes || b.all_attributes};
 }
 
 // Throws Error when loading so many points, and building the octree, takes more than limits.main.
@@ -57,8 +59,8 @@ Dataset open_dataset(const std::string& path, const ColorChoice& color, const Da
 Dataset open_dataset(const std::vector<std::string>& paths, const ColorChoice& color, const DatasetNeeds& needs,
                      const MemoryLimits& limits = {});
 
-// Reads and colours a source that is no tree; builds the octree when asked to.
-Dataset load_dataset(const PointSource& source, const ColorChoice& color, bool with_octree);
+// Reads and colours a source that is no tree; its points are needed, whatever `needs` says.
+Dataset load_dataset(const PointSource& source, const ColorChoice& color, const DatasetNeeds& needs);
 
 // Builds the octree of all points, which are in memory, and puts them in its order.
 void add_octree(Dataset& dataset);

@@ -1,5 +1,6 @@
 #include "render/store/part_reader.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "render/store/disk_reads.h"
@@ -7,9 +8,13 @@
 #include "render/store/unread.h"
 
 namespace stipple {
-PartReader::PartReader(std::shared_ptr<const TreeStore> store, ColorMap colors, double root_edge)
+
+PartReader::PartReader(std::shared_ptr<const TreeStore> store, ColorMap colors, double root_edge, bool all_attributes)
     : store_(std::move(store)), colors_(std::move(colors)), root_edge_(root_edge) {
-  attributes_ = attributes_of(colors_, store_->info().source.schema);
+  const Schema& schema = store_->info().source.schema;
+  attributes_ = attributes_of(colors_, schema);
+  for (std::size_t i = 0; all_attributes && i < schema.size(); ++i)
+    if (std::ranges::find(attributes_, i) == attributes_.end()) attributes_.push_back(i);
   for (std::size_t i = 0; i < kReadThreads; ++i) threads_.emplace_back([this] { work(); });
 }
 

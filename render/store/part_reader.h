@@ -43,8 +43,8 @@ class PartReader {
     std::exception_ptr failure{};
   };
 
-  // `root_edge`: see cut_clusters().
-  PartReader(std::shared_ptr<const TreeStore> store, ColorMap colors, double root_edge);
+  // `root_edge`: see cut_clusters(); `all_attributes`: see DatasetNeeds.
+  PartReader(std::shared_ptr<const TreeStore> store, ColorMap colors, double root_edge, bool all_attributes = false);
   // Waits for the reads that have begun.
   ~PartReader();
   PartReader(const PartReader&) = delete;
@@ -66,7 +66,7 @@ class PartReader {
   std::shared_ptr<const TreeStore> store_;
   ColorMap colors_;
   double root_edge_;
-  std::vector<std::size_t> attributes_;  // that the colour needs
+  std::vector<std::size_t> attributes_;  // to read: first those that the colour needs
   std::uint64_t points_under_way_ = 0;
 
   std::mutex mutex_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "octree/core/error.h"
 #include "render/store/stream_buffer.h"
 #include "src/cli/cli.h"
@@ -60,9 +62,12 @@ void add_draw_options(CLI::App& command, DrawOptions& options) {
   command
       .add_option(
           "--no-skip", options.no_skip,
-          "What mode hybrid is to do without, to see what it is worth: occlusion (leaving out clusters that are "
-          "wholly hidden), yield (clusters whose points are seen go first), still (adding to the last frame as it "
-          "stands while the view stays the same, where the published methods draw it anew), or several, separated "
+          "What mode hybrid is not to leave out, to see what that is worth: frustum (clusters outside of the view), "
+          "occlusion (those wholly hidden), density (for now, points closer together than pixels), yield (for now, "
+          "clusters whose points are not seen), rounds (frames that one round of all clusters would not fill), done "
+          "(looking again at clusters with nothing left), still (drawing a still picture anew, as the published "
+          "methods do), converged (frames after the last point, as far as --until goes), attributes (reading those "
+          "that are not shown), nodes (reading those of an octree on disk that are not needed), or several, separated "
           "by commas.")
       ->delimiter(',');
 }
@@ -107,6 +112,20 @@ MemoryLimits limits_of(const DrawOptions& options) {
   return limits;
 }
 
+Skips skips_of(const DrawOptions& options) {
+  Skips skips;
+  for (const std::string& name : options.no_skip) {
+    const auto skip = std::ranges::find(all_skips(), name, &NamedSkip::name);
+    if (skip == all_skips().end()) {
+      std::string names;
+      for (const NamedSkip& known : all_skips()) names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
+      throw UsageError(fmt::format("--no-skip {}: expected one of {}", name, names));
+    }
+    skips.*skip->member = false;
+  }
+  return skips;
+}
+
 MethodOptions method_options_of(const DrawOptions& options) {
   MethodOptions method{
       .seed = options.seed, .largest_budget = largest_budget(budget_of(options)), .limits = limits_of(options)};
@@ -120,16 +139,7 @@ MethodOptions method_options_of(const DrawOptions& options) {
     throw UsageError(fmt::format("--steer {}: expected cpu or gpu", options.steer));
   if (options.steer == "gpu")
     method.steering = GpuSteering{.target_ms = 1e3 / budget_of(options).frames_per_second.value()};
-  for (const std::string& name : options.no_skip) {
-    if (name == "occlusion")
-      method.skip_occluded = false;
-    else if (name == "yield")
-      method.by_yield = false;
-    else if (name == "still")
-      method.keep_still = false;
-    else
-      throw UsageError(fmt::format("--no-skip {}: expected occlusion, yield or still", name));
-  }
+  method.skips = skips_of(options);
   return method;
 }
 

@@ -41,6 +41,7 @@ RasterizerKind rasterizer_of(const DrawOptions& options);
 BudgetPolicy budget_of(const DrawOptions& options);
 PointSize point_size_of(const DrawOptions& options);
 MemoryLimits limits_of(const DrawOptions& options);
+Skips skips_of(const DrawOptions& options);
 // Seed, largest budget, limits, who steers, what hybrid may skip.
 MethodOptions method_options_of(const DrawOptions& options);
 // "converged", "frame:N" or "ms:T".

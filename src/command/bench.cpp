@@ -150,7 +150,7 @@ void run(const BenchArguments& options) {
   // Builds bound what the whole process has resident: before the cloud is in memory
   if (options.wants("reading")) bench_reading(*source, settings, sink);
   if (options.wants("building")) bench_building(*source, settings, sink);
-  Dataset dataset = load_dataset(*source, "", false);
+  Dataset dataset = load_dataset(*source, "", {});
   if (options.wants("processing")) bench_processing(dataset, settings, sink);
   if (options.wants("drawing")) bench_drawing(dataset, settings, sink);
   if (options.wants("quality")) {

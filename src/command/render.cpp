@@ -36,8 +36,9 @@ void run(const RenderOptions& options) {
   check_options(options, mode);
   if (options.while_loading) return run_while_loading(options, *mode, size, point_size);
 
-  const Dataset dataset = open_dataset(options.inputs, color_choice_of(options.draw.color, options.color),
-                                       mode ? needs_of(*mode) : DatasetNeeds{}, limits_of(options.draw));
+  const Dataset dataset =
+      open_dataset(options.inputs, color_choice_of(options.draw.color, options.color),
+                   mode ? needs_of(*mode, skips_of(options.draw)) : DatasetNeeds{}, limits_of(options.draw));
   for (const std::string& warning : dataset.info.warnings) warn(warning);
   const auto asked = camera_asked_for(options);
   const Camera camera = asked ? *asked : proposed_camera(dataset.overview(), static_cast<double>(size.x) / size.y);

@@ -38,6 +38,14 @@ Json stereo_json(const View& view, const std::vector<EyeState>& eyes) {
           {"right", json_of_eye(view.of_eye(1), eyes[1])}};
 }
 
+Json skipped_json(const std::optional<SkipCounts>& skipped) {
+  if (!skipped) return nullptr;
+  return {{"clusters_outside", skipped->clusters_outside}, {"points_outside", skipped->points_outside},
+          {"clusters_hidden", skipped->clusters_hidden},   {"points_hidden", skipped->points_hidden},
+          {"points_put_off", skipped->points_put_off},     {"clusters_done", skipped->clusters_done},
+          {"rounds_joined", skipped->rounds_joined}};
+}
+
 Json stats_of(const View& view, const FrameState& state, const SelectionCounts& counts, const Unread& unread = {}) {
   return {{"views", view.eyes()},
           {"points_drawn", state.points_drawn},
@@ -55,7 +63,8 @@ Json stats_of(const View& view, const FrameState& state, const SelectionCounts& 
           {"clusters_far", counts.clusters_far},
           {"clusters_near", counts.clusters_near},
           {"clusters_across", counts.clusters_across},
-          {"bytes_read", counts.bytes_read}};
+          {"bytes_read", counts.bytes_read},
+          {"points_read", counts.points_read}};
 }
 
 Json loading_json(LoadingDrawing& drawing, const FrameState& last, Json frames) {
@@ -93,10 +102,13 @@ Picture draw_with_gl(const RenderOptions& options, Mode mode, const Dataset& dat
   const HeadlessContext context;
   const auto method = make_method(mode, dataset, method_options_of(options.draw));
   ProgressiveRenderer renderer(*method, rasterizer_of(options.draw), dataset.points.grid, point_size);
-  const FrameState state = run_view(renderer, view, policy, parse_until(options.until));
+  Until until = parse_until(options.until);
+  until.converged = !method->draws_on() || !(until.frames || until.milliseconds);
+  const FrameState state = run_view(renderer, view, policy, until);
   const Unread unread = method->unread();
   Picture picture{read_picture(renderer, view, shading_of(options)), stats_of(view, state, method->counts(), unread),
                   unread};
+  picture.stats["skipped"] = skipped_json(method->skipped());
   picture.stats.update(context_provenance(context));
   return picture;
 }

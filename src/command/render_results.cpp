@@ -50,9 +50,7 @@ Json stats_of(const RenderOptions& options, const Picture& picture, const Datase
              {"carry", options.draw.carry},
              {"density", options.draw.density},
              {"budget", budget_in_use(options, dataset)},
-             {"skip_occluded", method.skip_occluded},
-             {"by_yield", method.by_yield},
-             {"keep_still", method.keep_still},
+             {"no_skip", no_skip_json(method.skips)},
              {"point_size", point_size.pixels},
              {"splat_size", point_size.world},
              {"background", options.draw.background},
@@ -60,6 +58,9 @@ Json stats_of(const RenderOptions& options, const Picture& picture, const Datase
              {"load_ms", dataset.load_seconds * 1e3},
              {"build_ms", dataset.build_seconds * 1e3}};
   const auto fps = budget_of(options.draw).frames_per_second;
+  stats["attributes_not_read"] =
+      method.skips.attributes ? dataset.info.schema.size() - attributes_of(dataset.colors, dataset.info.schema).size()
+                              : 0;
   stats["target_fps"] = fps ? Json(*fps) : Json();
   stats["steered_by"] = fps ? Json(options.draw.steer) : Json();
   stats.update(picture.stats);

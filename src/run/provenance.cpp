@@ -58,6 +58,13 @@ Json dataset_provenance(const Dataset& dataset) {
           {"grid", {{"offset", json_of(set.grid.offset)}, {"scale", json_of(set.grid.scale)}}}};
 }
 
+Json no_skip_json(const Skips& skips) {
+  Json names = Json::array();
+  for (const NamedSkip& skip : all_skips())
+    if (!(skips.*skip.member)) names.push_back(skip.name);
+  return names;
+}
+
 Json view_provenance(const View& view) {
   return {{"eye", json_of(view.eye)},
           {"right", json_of(view.right)},

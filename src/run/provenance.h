@@ -5,6 +5,7 @@
 
 #include "render/frame/camera.h"
 #include "render/gpu/context.h"
+#include "render/method/skips.h"
 #include "render/store/dataset.h"
 #include "src/json/json.h"
 
@@ -19,6 +20,8 @@ Json program_provenance();
 Json context_provenance(const HeadlessContext& context);
 // {"path", "format", "points_total", "points_hash", "color", "bounds", "grid"}
 Json dataset_provenance(const Dataset& dataset);
+// The names of those that are turned off.
+Json no_skip_json(const Skips& skips);
 // {"eye", "right", "up", "forward", "fov_deg", "near", "width", "height"}
 Json view_provenance(const View& view);
 

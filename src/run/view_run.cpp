@@ -9,7 +9,7 @@
 namespace stipple {
 
 bool ended(const Until& until, const FrameState& state) {
-  return state.converged || (until.frames && state.frame >= *until.frames) ||
+  return (state.converged && until.converged) || (until.frames && state.frame >= *until.frames) ||
          (until.milliseconds && state.milliseconds >= *until.milliseconds);
 }
 

@@ -12,8 +12,9 @@
 
 namespace stipple {
 
-// When to stop: at the latest when converged.
+// When to stop.
 struct Until {
+  bool converged = true;
   std::optional<std::uint64_t> frames;
   std::optional<double> milliseconds;
 };

@@ -59,9 +59,7 @@ Json settings_json(const StudySettings& settings) {
           {"repeats", settings.repeats},
           {"memory_bytes", limit_json(settings.method.limits.main)},
           {"gpu_memory_bytes", limit_json(settings.method.limits.gpu)},
-          {"skip_occluded", settings.method.skip_occluded},
-          {"by_yield", settings.method.by_yield},
-          {"keep_still", settings.method.keep_still},
+          {"no_skip", no_skip_json(settings.method.skips)},
           {"point_size", settings.point_size.pixels},
           {"splat_size", settings.point_size.world},
           {"background", fmt::format("{:06x}", settings.background)},
@@ -104,7 +102,7 @@ std::size_t curves_of_an_input(const StudySettings& settings) {
 Json study_input(const StudySettings& settings, const std::string& input, const std::string& name, Ledger& ledger,
                  StudyProgress& progress, Findings& findings) {
   DatasetNeeds needs;  // the reference draws all points
-  for (const Mode mode : settings.modes) needs = needs | needs_of(mode);
+  for (const Mode mode : settings.modes) needs = needs | needs_of(mode, settings.method.skips);
   progress.step(fmt::format("{}: reading{}", name, needs.octree ? " and building the octree" : ""));
   const Dataset dataset = open_dataset(input, settings.color, needs, settings.method.limits);
   Json json{{"name", name}};

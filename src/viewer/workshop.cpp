@@ -205,14 +205,15 @@ void Workshop::open_files() {
   const WatchedSource watched(*source, watch_, color,
                               [this](PreviewPoints points) { deliver(finished::Preview{std::move(points)}); });
   begin(Phase::reading);
-  deliver_cloud(std::make_shared<Dataset>(load_dataset(watched, color, false)));
+  deliver_cloud(
+      std::make_shared<Dataset>(load_dataset(watched, color, needs_of(opening_.mode, opening_.method.skips))));
 }
 
 void Workshop::open_octree() {
   deliver_cloud(std::make_shared<Dataset>(
       open_dataset(opening_.inputs, opening_.color, {.points = false, .octree = true}, opening_.method.limits)));
   // The first picture comes from disk, whatever it is to be drawn by when all points are there
-  if (needs_of(opening_.mode).points) make_now(Mode::hybrid);
+  if (needs_of(opening_.mode, opening_.method.skips).points) make_now(Mode::hybrid);
 }
 
 void Workshop::read_all_points() {
@@ -284,7 +285,7 @@ void Workshop::make_now(Mode mode) {
 
 void Workshop::make_method_now(Mode mode) {
   if (!dataset_) throw Error("the cloud could not be read; open it again");
-  const DatasetNeeds needs = needs_of(mode);
+  const DatasetNeeds needs = needs_of(mode, opening_.method.skips);
   if (needs.points && !dataset_->in_memory()) read_all_points();
   if (needs.octree && !dataset_->tree && !dataset_->octree) {
     begin(Phase::sorting);

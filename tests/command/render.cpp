@@ -409,12 +409,19 @@ TEST_F(RenderCommand, AnEmptyCloudAndASinglePointAreDrawn) {
 TEST_F(RenderCommand, HybridDoesWithoutWhatItIsTold) {
   const Image all = picture("all.png", "--mode hybrid --stats " + path("all.json"));
   EXPECT_EQ(picture("less.png", "--mode hybrid --no-skip occlusion,yield --stats " + path("less.json")).rgb, all.rgb);
-  EXPECT_EQ(json_file(path("all.json")).at("skip_occluded"), true);
+  const Json more = json_file(path("all.json"));
+  EXPECT_EQ(more.at("no_skip"), Json::array());
+  EXPECT_GT(more.at("skipped").at("points_hidden"), 0);
+  EXPECT_GT(more.at("attributes_not_read"), 5);
   const Json less = json_file(path("less.json"));
-  EXPECT_EQ(less.at("skip_occluded"), false);
-  EXPECT_EQ(less.at("by_yield"), false);
+  EXPECT_EQ(less.at("no_skip"), Json({"occlusion", "yield"}));
   EXPECT_EQ(less.at("nodes_occluded"), 0);
-  expect_wrong_usage("--mode hybrid --no-skip everything", "--no-skip everything");
+  EXPECT_EQ(less.at("skipped").at("clusters_hidden"), 0);
+  picture("more.png", "--mode hybrid --no-skip attributes,converged --until frame:40 --stats " + path("more.json"));
+  EXPECT_EQ(json_file(path("more.json")).at("attributes_not_read"), 0);
+  EXPECT_EQ(json_file(path("more.json")).at("frames"), 40);
+  EXPECT_EQ(json_file(path("more.json")).at("converged"), true);
+  expect_wrong_usage("--mode hybrid --no-skip everything", "--no-skip everything: expected one of frustum, occlusion");
 }
 
 TEST_F(RenderCommand, HybridLoadsATreeFromDisk) {
@@ -425,6 +432,24 @@ TEST_F(RenderCommand, HybridLoadsATreeFromDisk) {
         run_stipple(folder_, "render " + tree + " --size 160x90 -o " + path(mode + ".png") + " --mode " + mode).code,
         0);
   EXPECT_EQ(read_png(path("hybrid.png")).rgb, read_png(path("hierarchical.png")).rgb);
+}
+
+TEST_F(RenderCommand, HybridReadsOfATreeWhatIsNeededOrAllThatIsThere) {
+  const std::string tree = path("city.tree");
+  ASSERT_EQ(run_stipple(folder_, "build " + city_ + " -o " + tree).code, 0);
+  const auto stats = [&](const std::string& no_skip) {
+    const Outcome outcome =
+        run_stipple(folder_, "render " + tree + " --size 160x90 --json -o " + path("tree.png") +
+                                 " --eye 564900,5933900,200 " + "--target 565300,5934300,0 --fov 5" + no_skip);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return Json::parse(outcome.out);
+  };
+  EXPECT_LT(stats("").at("points_read"), kPoints * 3 / 4);
+  const Json all = stats(" --no-skip nodes");
+  EXPECT_EQ(all.at("skipped").at("points_outside").get<std::uint64_t>() +
+                all.at("skipped").at("points_hidden").get<std::uint64_t>() +
+                all.at("points_drawn").get<std::uint64_t>(),
+            kPoints);
 }
 
 TEST_F(RenderCommand, AFrameRateInsteadOfABudgetConvergesToo) {

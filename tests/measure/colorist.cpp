@@ -47,13 +47,13 @@ class ColoristTest : public testing::Test {
   }
   // As if it had been loaded in these colours.
   void expect(const ColorChoice& choice) const {
-    Dataset loaded = load_dataset(*city_.source, choice, true);
+    Dataset loaded = load_dataset(*city_.source, choice, {.octree = true});
     EXPECT_EQ(dataset_.colors, loaded.colors) << choice.attribute;
     EXPECT_EQ(hash_points(dataset_.points), hash_points(loaded.points)) << choice.attribute;
   }
 
   City city_;
-  Dataset dataset_ = load_dataset(*city_.source, {}, true);
+  Dataset dataset_ = load_dataset(*city_.source, {}, {.octree = true});
   Colorist colorist_;
 };
 

@@ -299,7 +299,7 @@ TEST(WhileLoading, EndsLikeBruteForceByEveryMethod) {
 
 TEST(WhileLoading, ColoursEndAsThoseOfTheWholeCloud) {
   const auto source = make_scene("terrain", 200'000, 1);
-  const Dataset whole = load_dataset(*source, "height", false);
+  const Dataset whole = load_dataset(*source, "height", {});
   const View view = view_of(whole, "oblique");
   for (const Mode mode : {Mode::unstructured, Mode::hybrid}) {
     BackgroundLoad load(*source, "height");

@@ -50,7 +50,7 @@ std::string difference_map(const std::vector<bool>& differs, const glm::ivec2& s
 const Dataset& scene(const std::string& name, std::uint64_t points) {
   static std::map<std::pair<std::string, std::uint64_t>, Dataset> made;
   auto& dataset = made[{name, points}];
-  if (dataset.points.size() == 0) dataset = load_dataset(*make_scene(name, points, 1), "", true);
+  if (dataset.points.size() == 0) dataset = load_dataset(*make_scene(name, points, 1), "", {.octree = true});
   return dataset;
 }
 

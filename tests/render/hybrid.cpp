@@ -18,7 +18,9 @@ INSTANTIATE_TEST_SUITE_P(Rasterizers, HybridRasterizer,
 // What a still view takes to converge.
 struct Converged {
   std::uint64_t points = 0;
+  std::uint64_t frames = 0;
   SelectionCounts counts;
+  SkipCounts skipped;
   FrameData picture;
 };
 
@@ -30,8 +32,10 @@ Converged converge(const PointSet& points, RasterizerKind kind, const View& view
   for (FrameReport report; !report.converged;) {
     report = renderer.draw(view, budget);
     run.points += report.points_filled;
+    ++run.frames;
   }
   run.counts = method->counts();
+  run.skipped = *method->skipped();
   run.picture = renderer.read();
   return run;
 }
@@ -59,7 +63,7 @@ TEST_P(HybridRasterizer, AHiddenWallIsHardlyDrawn) {
   EXPECT_LT(run.points, kWallPoints * 5 / 4);
   EXPECT_GT(run.counts.nodes_occluded, 200u);
 
-  const Converged all = converge(points, GetParam(), view, 5'000, {.skip_occluded = false});
+  const Converged all = converge(points, GetParam(), view, 5'000, {.skips = {.occlusion = false}});
   EXPECT_TRUE(same_picture(all.picture, run.picture));
   EXPECT_EQ(all.points, 2u * kWallPoints);
   EXPECT_EQ(all.counts.nodes_occluded, 0u);
@@ -94,22 +98,70 @@ TEST_P(HybridRasterizer, ATieWithWhatIsDrawnIsNotHidden) {
   EXPECT_EQ(run.points, positions.size());
 }
 
-TEST_P(HybridRasterizer, EveryOptionEndsWithTheSamePicture) {
+TEST_P(HybridRasterizer, WhateverIsNotSkippedThePictureIsTheSame) {
   const Dataset& dataset = scene("city", 200'000);
-  const View view = view_of(dataset, "oblique", {96, 54});
+  const View view = view_of(dataset, "low", {96, 54});
   const FrameData expected = brute_force_picture(dataset.points, GetParam(), view);
-  for (const bool occlusion : {false, true})
-    for (const bool yield : {false, true})
-      EXPECT_TRUE(same_picture(
-          converge(dataset.points, GetParam(), view, 20'000, {.skip_occluded = occlusion, .by_yield = yield}).picture,
-          expected))
-          << occlusion << yield;
+  Skips nothing;
+  for (const NamedSkip& skip : all_skips()) {
+    Skips skips;
+    skips.*skip.member = nothing.*skip.member = false;
+    EXPECT_TRUE(same_picture(converge(dataset.points, GetParam(), view, 20'000, {.skips = skips}).picture, expected))
+        << skip.name;
+  }
+  const Converged all = converge(dataset.points, GetParam(), view, 20'000, {.skips = nothing});
+  EXPECT_TRUE(same_picture(all.picture, expected));
+  EXPECT_EQ(all.points, 200'000u);
+}
+
+// Every point is drawn, or hidden, or outside.
+TEST_P(HybridRasterizer, WhatIsSkippedIsCounted) {
+  const Dataset& dataset = scene("city", 200'000);
+  const View view = view_of(dataset, "low", {96, 54});
+  const auto count = [&](const Skips& skips) {
+    const Converged run = converge(dataset.points, GetParam(), view, 20'000, {.skips = skips});
+    EXPECT_EQ(run.points + run.skipped.points_outside + run.skipped.points_hidden, 200'000u);
+    EXPECT_EQ(run.skipped.clusters_hidden, run.counts.nodes_occluded);
+    EXPECT_EQ(run.skipped.clusters_done + run.skipped.clusters_hidden, run.counts.nodes_visible);
+    return run;
+  };
+  const Converged all = count({});
+  EXPECT_GT(all.skipped.clusters_outside, 100u);
+  EXPECT_GT(all.skipped.points_outside, 20'000u);
+  EXPECT_GT(all.skipped.clusters_hidden, 100u);
+  EXPECT_GT(all.skipped.points_hidden, 20'000u);
+  EXPECT_GT(all.skipped.points_put_off, 20'000u);
+  EXPECT_GT(all.skipped.rounds_joined, 0u);
+  EXPECT_EQ(count({.frustum = false}).skipped.points_outside, 0u);
+  EXPECT_EQ(count({.occlusion = false}).skipped.clusters_hidden, 0u);
+  const Converged by_rounds = count({.rounds = false});
+  EXPECT_EQ(by_rounds.skipped.rounds_joined, 0u);
+  EXPECT_GT(by_rounds.frames, all.frames);
+  // It selects the same in more time
+  EXPECT_EQ(count({.done = false}).points, all.points);
+}
+
+TEST(HybridSkips, AConvergedViewIsDrawnOnlyWhereItIsNotSkipped) {
+  const Dataset& dataset = scene("city", 20'000);
+  const View view = view_of(dataset, "oblique", {96, 54});
+  for (const bool skip : {true, false}) {
+    const auto method =
+        make_method(Mode::hybrid, dataset.points, nullptr, {.skips = {.still = false, .converged = skip}});
+    ProgressiveRenderer renderer(*method, RasterizerKind::compute, dataset.points.grid);
+    while (!renderer.draw(view, 20'000).converged) {
+    }
+    const FrameData picture = renderer.read();
+    const FeedbackTarget* const frame = renderer.frame();
+    EXPECT_TRUE(renderer.draw(view, 20'000).converged);
+    EXPECT_EQ(renderer.frame() == frame, skip) << "frames take turns";
+    EXPECT_TRUE(same_picture(renderer.read(), picture));
+  }
 }
 
 TEST_P(HybridRasterizer, AStillViewIsKeptOrDrawnAnewWithTheSameFrames) {
   const Dataset& dataset = scene("city", 200'000);
   const auto kept = make_method(Mode::hybrid, dataset.points, nullptr);
-  const auto anew = make_method(Mode::hybrid, dataset.points, nullptr, {.keep_still = false});
+  const auto anew = make_method(Mode::hybrid, dataset.points, nullptr, {.skips = {.still = false}});
   ProgressiveRenderer kept_renderer(*kept, GetParam(), dataset.points.grid);
   ProgressiveRenderer anew_renderer(*anew, GetParam(), dataset.points.grid);
   kept_renderer.warm_up({96, 54});

@@ -193,7 +193,7 @@ const std::vector<Dataset>& real_datasets() {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(data)) {
       if (entry.path().extension() != ".las") continue;
       try {
-        opened.push_back(load_dataset(*open_source(entry.path()), "", true));
+        opened.push_back(load_dataset(*open_source(entry.path()), "", {.octree = true}));
       } catch (const Error&) {
       }
     }

@@ -21,8 +21,8 @@ std::unique_ptr<Method> hybrid_of(std::shared_ptr<const TreeStore> tree, std::ui
                                   std::uint64_t points_ahead = 20'000) {
   return std::make_unique<Hybrid>(
       std::make_unique<TreeClusters>(std::move(tree), city(false).colors, 0,
-                                     TreeClusters::Room{.slots = slots, .points_ahead = points_ahead}),
-      ClusterSelector::Options{.largest_budget = 50'000, .skip_occluded = true, .by_yield = true});
+                                     TreeClusters::Options{.slots = slots, .points_ahead = points_ahead}),
+      ClusterSelector::Options{.largest_budget = 50'000});
 }
 
 FrameData converged(Method& method, const View& view, std::uint32_t budget) {
@@ -93,8 +93,8 @@ TEST(TreeClusters, ASecondLookReadsNothingThatThePoolHolds) {
 TEST(TreeClusters, WhatIsHiddenIsNotRead) {
   const auto read = [](bool skip) {
     Hybrid method(std::make_unique<TreeClusters>(city(false).tree, city(false).colors, city(false).tree->bytes_read(),
-                                                 TreeClusters::Room{.slots = 5'000, .points_ahead = 2'000}),
-                  {.largest_budget = 4'000, .skip_occluded = skip, .by_yield = true});
+                                                 TreeClusters::Options{.slots = 5'000, .points_ahead = 2'000}),
+                  {.largest_budget = 4'000, .skips = {.occlusion = skip}});
     View view = view_of_city("low");
     view.size = {64, 36};
     converged(method, view, 4'000);
