@@ -121,7 +121,7 @@ Json study_input(const StudySettings& settings, const std::string& input, const 
 
 Json document_of(const StudySettings& settings, const HeadlessContext& context, const Json& datasets,
                  const Findings& findings, bool complete) {
-  Json document{{"schema", "stipple-study"}, {"schema_version", 2}};
+  Json document{{"schema", "stipple-study"}, {"schema_version", 3}};
   document.update(program_provenance());
   document.update(context_provenance(context));
   document["settings"] = settings_json(settings);
