@@ -4,6 +4,8 @@
 const float kRounding = 4e-6;
 // Of a depth, in whatever way a rasterizer computes it.
 const float kDepthRounding = 1e-5;
+// Of a place in pixels, in pictures of up to 16,384.
+const float kPlaceRounding = 0.01;
 // Tiles a box is looked up in, along each axis.
 const int kTiles = 8;
 
@@ -24,8 +26,7 @@ Outline outline_from(vec4 inwards, float nearest, float farthest, vec2 ndc_low, 
   outline.bounded = nearest > view.near;
   // The nearest of its points are the largest
   float largest = max(view.point_size, splat_diameter(view.near / nearest * (1.0 + kDepthRounding)));
-  // Rasterizers may snap points to sixteenths of a pixel, the coarsest that OpenGL allows
-  float margin = 0.125 + 0.5 * max(largest - 1.0, 0.0);
+  float margin = kPlaceRounding + view.snapping + 0.5 * max(largest - 1.0, 0.0);
   outline.low = (ndc_low * 0.5 + 0.5) * vec2(view.size) - margin;
   outline.high = (ndc_high * 0.5 + 0.5) * vec2(view.size) + margin;
   return outline;

@@ -16,6 +16,7 @@ layout(std140, binding = 0) uniform ViewBlock {
   float point_size;  // pixels: edge of a far point's square
   float splat_at_near;  // pixels: diameter of a splat on the near plane; 0: there are no splats
   float largest_splat;  // pixels
+  float snapping;       // pixels by which the rasterizer may move a point
 } view;
 
 vec3 world_from_eye(ivec3 p) {

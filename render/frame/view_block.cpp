@@ -4,7 +4,7 @@
 
 namespace stipple {
 
-ViewBlock make_view_block(const View& view, const Grid& grid, const PointSize& point_size) {
+ViewBlock make_view_block(const View& view, const Grid& grid, const PointSize& point_size, double snapping) {
   const glm::dvec3 cell =
       glm::clamp(glm::floor(grid.grid_from_world(view.eye)), glm::dvec3(std::numeric_limits<std::int32_t>::min()),
                  glm::dvec3(std::numeric_limits<std::int32_t>::max()));
@@ -22,7 +22,8 @@ ViewBlock make_view_block(const View& view, const Grid& grid, const PointSize& p
   block.point_size = static_cast<float>(point_size.pixels);
   block.splat_at_near = static_cast<float>(point_size.splat_at_one(view) / view.near);
   block.largest_splat = static_cast<float>(PointSize::kLargestSplat);
-  block.padding = {};
+  block.snapping = static_cast<float>(snapping);
+  block.padding = 0.0f;
   return block;
 }
 

@@ -25,12 +25,14 @@ struct ViewBlock {
   float point_size;
   float splat_at_near;
   float largest_splat;
-  glm::vec2 padding;
+  float snapping;
+  float padding;
 };
 static_assert(sizeof(ViewBlock) == 144);
 
-// Of a view of one eye. The eye's cell is clamped to int32; what is beyond stays in the residual.
-ViewBlock make_view_block(const View& view, const Grid& grid, const PointSize& point_size);
+// Of a view of one eye. The eye's cell is clamped to int32; what is beyond stays in the residual. `snapping`: see
+// Rasterizer::snapping().
+ViewBlock make_view_block(const View& view, const Grid& grid, const PointSize& point_size, double snapping = 0.0);
 
 // The block on the GPU.
 class ViewUniforms {

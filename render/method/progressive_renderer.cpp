@@ -117,7 +117,7 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size, std::size_t eyes) {
                   .near = 1.0,
                   .size = size,
                   .eyes_apart = eyes == 2 ? 1.0 : 0.0};
-  eyes_[0].block.set(make_view_block(view.of_eye(0), grid_, point_size_));
+  eyes_[0].block.set(make_view_block(view.of_eye(0), grid_, point_size_, rasterizer_->snapping()));
   rasterizer_->draw(previous(), items);
   method_->warm_up(view, previous());
   if (SteeredRound* const steered = method_->steered()) {
@@ -190,7 +190,7 @@ void ProgressiveRenderer::begin_frame() {
   if (!kept_) current_ = 1 - current_;
   for (std::size_t number = 0; number < eyes_.size(); ++number) {
     Eye& eye = eyes_[number];
-    eye.block.set(make_view_block(view_.of_eye(number), grid_, point_size_));
+    eye.block.set(make_view_block(view_.of_eye(number), grid_, point_size_, rasterizer_->snapping()));
     auto& target = eye.targets[current_];
     if (!target || target->size() != view_.size) target.emplace(view_.size, rasterizer_->depth_storage());
   }

@@ -1,6 +1,7 @@
 #include "render/raster/points_rasterizer.h"
 
 #include <array>
+#include <cmath>
 
 namespace stipple {
 namespace {
@@ -42,6 +43,12 @@ glm::dvec2 PointsRasterizer::point_sizes() const {
   std::array<GLfloat, 2> range{};
   glGetFloatv(GL_POINT_SIZE_RANGE, range.data());
   return {range[0], range[1]};
+}
+
+double PointsRasterizer::snapping() const {
+  GLint bits = 0;
+  glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+  return std::ldexp(1.0, -bits);
 }
 
 void PointsRasterizer::rasterize(FeedbackTarget& target, std::span<const DrawItem> items, bool) {

@@ -13,6 +13,8 @@ class PointsRasterizer final : public Rasterizer {
   DepthStorage depth_storage() const override { return DepthStorage::attachment; }
   // What the driver does not clamp.
   glm::dvec2 point_sizes() const override;
+  // A step of the driver's raster of places.
+  double snapping() const override;
 
  private:
   void rasterize(FeedbackTarget& target, std::span<const DrawItem> items, bool over_picture) override;

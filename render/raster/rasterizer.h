@@ -82,6 +82,8 @@ class Rasterizer {
   virtual DepthStorage depth_storage() const = 0;
   // The least and the largest size of a point it draws, in pixels.
   virtual glm::dvec2 point_sizes() const = 0;
+  // How far from its place it may draw a point, in pixels, on each axis.
+  virtual double snapping() const { return 0.0; }
 
   // Clears the target and draws all items into it, in any order: among the points of a pixel the nearest wins, equal
   // depths go to the lowest id. The view block must be bound (ViewUniforms::set). Items must not read `target`.

@@ -91,7 +91,7 @@ class TreeOnDisk : public testing::TestWithParam<Mode> {};
 INSTANTIATE_TEST_SUITE_P(Modes, TreeOnDisk, testing::Values(Mode::hierarchical, Mode::hybrid),
                          [](const auto& param) { return std::string(name_of(param.param)); });
 
-TEST_P(TreeOnDisk, AFileThatBreaksOffIsAnErrorNotAHang) {
+TEST_P(TreeOnDisk, OfAFileThatBreaksOffTheRestIsDrawn) {
   const std::filesystem::path original =
       std::filesystem::path(STIPPLE_SHARED_DATA) / "derived/potree2/huacayccancha-uncompressed";
   if (!std::filesystem::exists(original)) GTEST_SKIP() << original << " is missing: real trees are not tested";
@@ -104,7 +104,9 @@ TEST_P(TreeOnDisk, AFileThatBreaksOffIsAnErrorNotAHang) {
     std::filesystem::resize_file(copy / "octree.bin", std::filesystem::file_size(copy / "octree.bin") / 4);
     const auto method = make_method(GetParam(), on_disk, {.largest_budget = 50'000});
     const View view = view_of_tree(on_disk, "oblique");
-    EXPECT_THROW(converged_picture(*method, RasterizerKind::compute, on_disk.points.grid, view, 50'000), Error);
+    EXPECT_GT(converged_picture(*method, RasterizerKind::compute, on_disk.points.grid, view, 50'000).covered_pixels(),
+              0u);
+    EXPECT_GT(method->unread().parts, 0u);
   }
   std::filesystem::remove_all(copy);
 }
