@@ -25,7 +25,7 @@ struct ClusterState {
   uint drawn;
   uint status;
   float seen;   // share of its latest points that won their pixel: the yield
-  uint hidden;  // shards that cannot be seen, a bit each: in the lower half by the first eye, in the upper by the second
+  uvec2 hidden;  // shards that the first eye cannot see, and the second, a bit each
 };
 
 // The tiles of the depth pyramid that a cluster may touch, pixels on level 0; x below y in 16 bits each.
@@ -46,21 +46,19 @@ struct Prospect {
   float open;      // share of the places under its outline where it may be seen
 };
 
-const uint kAllShards = (1u << SHARDS) - 1u;
-
-// From ShardBoxes of render/store/shards.h and the corners of the cluster's box.
-void shard_box(uint packed_box, vec3 low, vec3 high, out vec3 from, out vec3 to) {
-  vec3 cell = (high - low) / 32.0;
-  from = low + cell * vec3(uvec3(packed_box, packed_box >> 5, packed_box >> 10) & 31u);
-  to = low + cell * vec3((uvec3(packed_box >> 15, packed_box >> 20, packed_box >> 25) & 31u) + 1u);
+// From the cells of a shard in ShardBoxes of render/store/shards.h and the corners of the cluster's box.
+void shard_box(uint first, uint last, vec3 low, vec3 high, out vec3 from, out vec3 to) {
+  vec3 cell = (high - low) / 1024.0;
+  from = low + cell * vec3(uvec3(first, first >> 10, first >> 20) & 1023u);
+  to = low + cell * vec3((uvec3(last, last >> 10, last >> 20) & 1023u) + 1u);
 }
 
 // Those that no eye can see, a bit each.
-uint hidden_shards(ClusterState state) { return state.hidden & state.hidden >> SHARDS; }
+uint hidden_shards(ClusterState state) { return state.hidden.x & state.hidden.y; }
 
 // Points in the first places of a cluster, without those of hidden shards.
 uint points_before(uint places, uint hidden) {
-  uint open = ~hidden & kAllShards;
+  uint open = ~hidden;
   return places / SHARDS * uint(bitCount(open)) + uint(bitCount(open & ((1u << places % SHARDS) - 1u)));
 }
 

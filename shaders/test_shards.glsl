@@ -9,7 +9,8 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) readonly buffer Boxes { ClusterBox boxes[]; };
 layout(std430, binding = 1) buffer States { ClusterState states[]; };
-layout(std430, binding = 2) readonly buffer Shards { uint shards[]; };  // SHARDS a cluster
+layout(std430, binding = 2) readonly buffer FirstCells { uint first_cells[]; };  // SHARDS a cluster
+layout(std430, binding = 4) readonly buffer LastCells { uint last_cells[]; };
 layout(std430, binding = 5) buffer InSight { Sight sight; };
 layout(std430, binding = 7) readonly buffer Stretches { Stretch stretches[]; };
 layout(location = 0) uniform uint stretch_count;
@@ -27,17 +28,17 @@ void main() {
   vec3 high = world_from_eye(box.high);
   vec3 reach = max(abs(low), abs(high));
   uint hidden = 0u;
-  for (uint left = ~hidden_shards(state) & kAllShards; left != 0u; left &= left - 1u) {
+  for (uint left = ~hidden_shards(state); left != 0u; left &= left - 1u) {
     uint shard = uint(findLSB(left));
     if (shard >= box.count) break;
     vec3 from;
     vec3 to;
-    shard_box(shards[i * SHARDS + shard], low, high, from, to);
+    shard_box(first_cells[i * SHARDS + shard], last_cells[i * SHARDS + shard], low, high, from, to);
     Outline outline = outline_of_small(from, to, reach);
     if (outline.outside ? culls : open_share(silhouette_of(outline), 1u) == 0.0) hidden |= 1u << shard;
   }
-  if ((eyes & 1u) != 0u) state.hidden |= hidden;
-  if ((eyes & 2u) != 0u) state.hidden |= hidden << SHARDS;
+  if ((eyes & 1u) != 0u) state.hidden.x |= hidden;
+  if ((eyes & 2u) != 0u) state.hidden.y |= hidden;
   states[i].hidden = state.hidden;
   if (points_left(state, box.count) == 0u) {
     states[i].status = kOccluded;

@@ -11,7 +11,7 @@ namespace {
 struct ClusterState {
   std::uint32_t start, drawn, status;
   float seen;
-  std::uint32_t hidden;
+  glm::uvec2 hidden;
 };
 struct Stretch {
   std::uint32_t cluster, begin, first, count;
@@ -38,9 +38,9 @@ constexpr std::size_t kProspectBytes = 3 * sizeof(float);
 constexpr std::size_t kSilhouetteBytes = 4 * sizeof(std::uint32_t);
 constexpr std::size_t kMostProbed = 4096;
 
-// Clusters that one invocation of the scan works off: a bit each in a word.
+// Clusters that one invocation of the scan works off; they are a bit each in a word, as are the shards of a cluster.
 constexpr std::size_t kBlock = ClusterTable::kBlock;
-static_assert(kBlock == 32);
+static_assert(kBlock == 32 && kShards == 32);
 
 std::size_t blocks_of(std::size_t clusters) {
   return (clusters + kBlock - 1) / kBlock;
@@ -121,13 +121,12 @@ void ClusterSelector::warm_up(const View& view, const FeedbackTarget& frame) {
   small.chunks[0].ids.fill(0);
   // Of its two points a frame draws one, so that the second frame has something to test
   const ClusterTable::Row row{glm::ivec3(0), 0, glm::ivec3(0), 2};
-  small.boxes = GpuBuffer(sizeof row);
-  small.boxes.write(0, &row, sizeof row);
-  small.log_pixels = GpuBuffer(ClusterTable::kLevels * sizeof(float));
+  small.allocate(1);
+  small.write_rows(0, {&row, 1});
   small.log_pixels.fill(0);
-  small.shards = GpuBuffer(sizeof(ShardBoxes));
-  small.shards.fill(0);
-  small.size = small.capacity = 1;
+  small.first_cells.fill(0);
+  small.last_cells.fill(0);
+  small.size = 1;
   table_ = &small;
   forget();
   start_view(view);
@@ -245,7 +244,7 @@ void ClusterSelector::add(std::span<const ClusterRun> runs) {
   std::vector<ClusterState> fresh;
   std::vector<std::uint32_t> clusters;
   for (const ClusterRun& run : runs) {
-    fresh.assign(run.count, {0, 0, kOpen, 1.0f, 0});
+    fresh.assign(run.count, {0, 0, kOpen, 1.0f, glm::uvec2(0)});
     states_.write(run.first * sizeof(ClusterState), std::span<const ClusterState>(fresh));
     for (std::uint32_t i = 0; i < run.count; ++i) clusters.push_back(run.first + i);
   }
@@ -257,7 +256,7 @@ void ClusterSelector::add(std::span<const ClusterRun> runs) {
 
 void ClusterSelector::remove(std::span<const ClusterRun> runs) {
   for (const ClusterRun& run : runs) {
-    const std::vector<ClusterState> none(run.count, {0, 0, kOutside, 0.0f, 0});
+    const std::vector<ClusterState> none(run.count, {0, 0, kOutside, 0.0f, glm::uvec2(0)});
     states_.write(run.first * sizeof(ClusterState), std::span<const ClusterState>(none));
   }
 }
@@ -442,7 +441,8 @@ void ClusterSelector::test_shards(std::size_t eye) {
   use(test_shards_, eyes_[eye]);
   table_->boxes.bind_storage(0);
   states_.bind_storage(1);
-  table_->shards.bind_storage(2);
+  table_->first_cells.bind_storage(2);
+  table_->last_cells.bind_storage(4);
   sight_.bind_storage(5);
   stretches_.bind_storage(7);
   glUniform1ui(0, stretches());

@@ -79,13 +79,11 @@ ClusterTable upload_clusters(const PointSet& points, const ClusterCut& cut) {
     shards.push_back(cut.shards[c]);
   }
   if (points.size() > chunk_first) append_chunk(table, points, order.subspan(chunk_first));
-  table.size = table.capacity = static_cast<std::uint32_t>(rows.size());
-  table.boxes = GpuBuffer(rows.size() * sizeof(ClusterTable::Row));
-  table.boxes.write(0, std::span<const ClusterTable::Row>(rows));
-  table.log_pixels = GpuBuffer(log_pixels.size() * sizeof(float));
-  table.log_pixels.write(0, std::span<const float>(log_pixels));
-  table.shards = GpuBuffer(shards.size() * sizeof(ShardBoxes));
-  table.shards.write(0, std::span<const ShardBoxes>(shards));
+  table.allocate(static_cast<std::uint32_t>(rows.size()));
+  table.write_rows(0, rows);
+  table.write_log_pixels(0, log_pixels);
+  table.write_shards(0, shards);
+  table.size = table.capacity;
   return table;
 }
 

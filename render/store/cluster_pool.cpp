@@ -52,11 +52,8 @@ SlottedPoints slotted(const Grid& grid, std::span<const PackedPoint> points, std
 }
 
 ClusterPool::ClusterPool(std::uint32_t slots, double root_edge) : free_slots_(slots) {
-  table_.capacity = slots;
+  table_.allocate(slots);
   table_.root_edge = root_edge;
-  table_.boxes = GpuBuffer(slots * sizeof(ClusterTable::Row));
-  table_.log_pixels = GpuBuffer(slots * ClusterTable::kLevels * sizeof(float));
-  table_.shards = GpuBuffer(slots * sizeof(ShardBoxes));
   if (slots > 0) free_[0] = slots;
 }
 
@@ -109,18 +106,17 @@ void ClusterPool::write(const SlottedPoints& points, std::uint32_t from, const C
   chunk.ids.write(at * sizeof(std::uint32_t), std::span(points.ids).subspan(std::size_t{from} * kPoints, some));
   std::vector<ClusterTable::Row> rows(points.rows.begin() + from, points.rows.begin() + from + run.count);
   for (std::uint32_t i = 0; i < run.count; ++i) rows[i].place = place_of(run.first + i);
-  table_.boxes.write(run.first * sizeof(ClusterTable::Row), std::span<const ClusterTable::Row>(rows));
   constexpr std::size_t kFloats = ClusterTable::kLevels;
-  table_.log_pixels.write(run.first * kFloats * sizeof(float),
-                          std::span(points.log_pixels).subspan(from * kFloats, run.count * kFloats));
-  table_.shards.write(run.first * sizeof(ShardBoxes), std::span(points.shards).subspan(from, run.count));
+  table_.write_rows(run.first, rows);
+  table_.write_log_pixels(run.first, std::span(points.log_pixels).subspan(from * kFloats, run.count * kFloats));
+  table_.write_shards(run.first, std::span(points.shards).subspan(from, run.count));
 }
 
 void ClusterPool::free(std::span<const ClusterRun> runs) {
   for (const ClusterRun& run : runs) {
     std::vector<ClusterTable::Row> rows(run.count, ClusterTable::Row{});
     for (std::uint32_t i = 0; i < run.count; ++i) rows[i].place = place_of(run.first + i);
-    table_.boxes.write(run.first * sizeof(ClusterTable::Row), std::span<const ClusterTable::Row>(rows));
+    table_.write_rows(run.first, rows);
     free_slots_ += run.count;
     // Joins its neighbours
     ClusterRun joined = run;

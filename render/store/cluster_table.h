@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "octree/tree/octree.h"
@@ -35,11 +36,19 @@ struct ClusterTable {
     std::uint32_t count;
   };
 
+  // Room for `clusters` rows of every table; chunks are the caller's.
+  void allocate(std::uint32_t clusters);
+  // Rows from `first` on.
+  void write_rows(std::uint32_t first, std::span<const Row> rows);
+  void write_log_pixels(std::uint32_t first, std::span<const float> values);
+  void write_shards(std::uint32_t first, std::span<const ShardBoxes> values);
+
   std::vector<Chunk> chunks;
   GpuBuffer boxes;  // a Row a cluster
   // log2 of estimated_pixels() for pixels of root_edge / 2^level, level 0 to kMaxLevel: kLevels floats a cluster.
   GpuBuffer log_pixels;
-  GpuBuffer shards;            // ShardBoxes of each cluster
+  GpuBuffer first_cells;       // of ShardBoxes, those of each cluster
+  GpuBuffer last_cells;        // in two tables, or they would outgrow the others
   std::uint32_t size = 0;      // rows in use
   std::uint32_t capacity = 0;  // rows there is room for
   double root_edge = 1.0;      // world units
