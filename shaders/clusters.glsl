@@ -25,7 +25,7 @@ struct ClusterState {
   uint drawn;
   uint status;
   float seen;   // share of its latest points that won their pixel: the yield
-  uvec2 hidden;  // shards that the first eye cannot see, and the second, a bit each
+  uvec4 hidden;  // shards that the first eye cannot see, a bit each, and those that the second cannot
 };
 
 // The tiles of the depth pyramid that a cluster may touch, pixels on level 0; x below y in 16 bits each.
@@ -46,26 +46,28 @@ struct Prospect {
   float open;      // share of the places under its outline where it may be seen
 };
 
-// From the cells of a shard in ShardBoxes of render/store/shards.h and the corners of the cluster's box.
-void shard_box(uint first, uint last, vec3 low, vec3 high, out vec3 from, out vec3 to) {
+// From a ShardBox of render/store/shards.h and the corners of the cluster's box.
+void shard_box(uvec2 cells, vec3 low, vec3 high, out vec3 from, out vec3 to) {
   vec3 cell = (high - low) / 1024.0;
-  from = low + cell * vec3(uvec3(first, first >> 10, first >> 20) & 1023u);
-  to = low + cell * vec3((uvec3(last, last >> 10, last >> 20) & 1023u) + 1u);
+  from = low + cell * vec3(uvec3(cells.x, cells.x >> 10, cells.x >> 20) & 1023u);
+  to = low + cell * vec3((uvec3(cells.y, cells.y >> 10, cells.y >> 20) & 1023u) + 1u);
 }
 
 // Those that no eye can see, a bit each.
-uint hidden_shards(ClusterState state) { return state.hidden.x & state.hidden.y; }
+uvec2 hidden_shards(ClusterState state) { return state.hidden.xy & state.hidden.zw; }
 
 // Points in the first places of a cluster, without those of hidden shards.
-uint points_before(uint places, uint hidden) {
-  uint open = ~hidden;
-  return places / SHARDS * uint(bitCount(open)) + uint(bitCount(open & ((1u << places % SHARDS) - 1u)));
+uint points_before(uint places, uvec2 hidden) {
+  ivec2 open = bitCount(~hidden);
+  uint rest = places % SHARDS;
+  uint of_rest = uint(bitCount(~hidden[rest / 32u] & ((1u << rest % 32u) - 1u))) + (rest < 32u ? 0u : uint(open.x));
+  return places / SHARDS * uint(open.x + open.y) + of_rest;
 }
 
 // Points of a cluster of `count` that are to be drawn yet, without those of hidden shards.
 uint points_left(ClusterState state, uint count) {
-  uint hidden = hidden_shards(state);
-  if (hidden == 0u) return count - state.drawn;
+  uvec2 hidden = hidden_shards(state);
+  if (hidden == uvec2(0u)) return count - state.drawn;
   // From here around the end to the start
   uint from = state.start + state.drawn;
   uint before_start = points_before(state.start, hidden);

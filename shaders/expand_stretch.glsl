@@ -9,7 +9,15 @@ layout(std430, binding = 7) readonly buffer Stretches { Stretch stretches[]; };
 layout(std430, binding = 2) writeonly buffer Places { uint places[]; };
 layout(location = 0) uniform uint stretch_count;
 
-uint rotated(uint bits, uint right) { return right == 0u ? bits : bits >> right | bits << (SHARDS - right); }
+// How many shards on from `shard` the next open one is, around the end.
+uint to_next(uvec2 open, uint shard) {
+  uint word = shard / 32u;
+  uint at = shard % 32u;
+  uint bits = open[word] >> at;
+  if (bits != 0u) return uint(findLSB(bits));
+  uint others = open[1u - word];
+  return others != 0u ? 32u - at + uint(findLSB(others)) : 64u - at + uint(findLSB(open[word]));
+}
 
 void main() {
   uint s = invocation_index();
@@ -17,14 +25,14 @@ void main() {
   Stretch stretch = stretches[s];
   uint first = boxes[stretch.cluster].place & kPlaceMask;
   uint size = boxes[stretch.cluster].count;
-  uint open = ~hidden_shards(states[stretch.cluster]);
-  uint first_open = uint(findLSB(open));
+  uvec2 open = ~hidden_shards(states[stretch.cluster]);
+  uint first_open = to_next(open, 0u);
   uint place = states[stretch.cluster].start + stretch.first;
   if (place >= size) place -= size;
   uint passed = 0u;
   for (uint k = 0u; k < stretch.count; ++k) {
     // On to the next place of an open shard, around the end of the circle
-    uint step = uint(findLSB(rotated(open, place % SHARDS)));
+    uint step = to_next(open, place % SHARDS);
     if (place + step >= size) step = size - place + first_open;
     passed += step + 1u;
     place += step;

@@ -49,7 +49,7 @@ void main() {
   state.start += state.drawn;
   if (state.start >= box.count) state.start -= box.count;
   state.drawn = 0u;
-  state.hidden = uvec2(0u);
+  state.hidden = uvec4(0u);
   // What the last view taught fades, but tells new clusters from those that are carried or hidden: along a path that is worth
   // 0.5 to 1 dB, and fading faster or slower is worth less
   const float kFading = 0.9;

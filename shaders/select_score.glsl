@@ -40,8 +40,10 @@ uint urgency_of(ClusterState state, Prospect prospect, uint count) {
 }
 
 void main() {
-  // Points: shorter stretches cost more to select than to draw, longer ones draw what would be hidden a frame later. Each next
-  // one draws as many as were drawn before it: a quarter less is selected, 1 to 3 % more drawn.
+  // Points: shorter stretches cost more to select than to draw, longer ones draw what would be hidden a frame later. The first
+  // need not be as long: all clusters in sight draw it. Each next one draws as many as were drawn before it: a quarter less is
+  // selected, 1 to 3 % more drawn.
+  const uint kLeastAtFirst = 4u;
   const uint kLeast = 16u;
   uint i = invocation_index();
   if (i >= count) return;
@@ -50,7 +52,7 @@ void main() {
   uint rest = points_left(state, boxes[i].count);
   if (state.status != kOpen || rest == 0u) return;
   Prospect prospect = prospects[i];
-  uint least = max(kLeast, state.drawn);
+  uint least = state.drawn == 0u ? kLeastAtFirst : max(kLeast, state.drawn);
   uint wish = by_density ? min(uint(clamp(ceil(0.5 * prospect.pixels), float(least), 65536.0)), rest) : rest;
   uint urgency = urgency_of(state, prospect, boxes[i].count);
   atomicOr(wishing[i / BLOCK], 1u << i % BLOCK);

@@ -11,7 +11,7 @@ namespace {
 struct ClusterState {
   std::uint32_t start, drawn, status;
   float seen;
-  glm::uvec2 hidden;
+  glm::uvec4 hidden;
 };
 struct Stretch {
   std::uint32_t cluster, begin, first, count;
@@ -38,9 +38,9 @@ constexpr std::size_t kProspectBytes = 3 * sizeof(float);
 constexpr std::size_t kSilhouetteBytes = 4 * sizeof(std::uint32_t);
 constexpr std::size_t kMostProbed = 4096;
 
-// Clusters that one invocation of the scan works off; they are a bit each in a word, as are the shards of a cluster.
+// Clusters that one invocation of the scan works off; a bit each in a word. Shards are a bit each in two.
 constexpr std::size_t kBlock = ClusterTable::kBlock;
-static_assert(kBlock == 32 && kShards == 32);
+static_assert(kBlock == 32 && kShards == 64);
 
 std::size_t blocks_of(std::size_t clusters) {
   return (clusters + kBlock - 1) / kBlock;
@@ -124,8 +124,7 @@ void ClusterSelector::warm_up(const View& view, const FeedbackTarget& frame) {
   small.allocate(1);
   small.write_rows(0, {&row, 1});
   small.log_pixels.fill(0);
-  small.first_cells.fill(0);
-  small.last_cells.fill(0);
+  small.shards.fill(0);
   small.size = 1;
   table_ = &small;
   forget();
@@ -244,7 +243,7 @@ void ClusterSelector::add(std::span<const ClusterRun> runs) {
   std::vector<ClusterState> fresh;
   std::vector<std::uint32_t> clusters;
   for (const ClusterRun& run : runs) {
-    fresh.assign(run.count, {0, 0, kOpen, 1.0f, glm::uvec2(0)});
+    fresh.assign(run.count, {0, 0, kOpen, 1.0f, glm::uvec4(0)});
     states_.write(run.first * sizeof(ClusterState), std::span<const ClusterState>(fresh));
     for (std::uint32_t i = 0; i < run.count; ++i) clusters.push_back(run.first + i);
   }
@@ -256,7 +255,7 @@ void ClusterSelector::add(std::span<const ClusterRun> runs) {
 
 void ClusterSelector::remove(std::span<const ClusterRun> runs) {
   for (const ClusterRun& run : runs) {
-    const std::vector<ClusterState> none(run.count, {0, 0, kOutside, 0.0f, glm::uvec2(0)});
+    const std::vector<ClusterState> none(run.count, {0, 0, kOutside, 0.0f, glm::uvec4(0)});
     states_.write(run.first * sizeof(ClusterState), std::span<const ClusterState>(none));
   }
 }
@@ -441,8 +440,7 @@ void ClusterSelector::test_shards(std::size_t eye) {
   use(test_shards_, eyes_[eye]);
   table_->boxes.bind_storage(0);
   states_.bind_storage(1);
-  table_->first_cells.bind_storage(2);
-  table_->last_cells.bind_storage(4);
+  table_->shards.bind_texels(1, GL_RG32UI);
   sight_.bind_storage(5);
   stretches_.bind_storage(7);
   glUniform1ui(0, stretches());

@@ -57,7 +57,7 @@ std::unique_ptr<Method> make_hybrid(const PointSet& points, const MethodOptions&
                                   selector_options(options, budget));
 }
 
-// GPU memory for the pool of a tree on disk, where no limit is given: 50 million points.
+// GPU memory for the pool of a tree on disk, where no limit is given: 47 million points.
 constexpr std::uint64_t kPoolBytes = std::uint64_t{1} << 30;
 
 std::unique_ptr<Method> make_hybrid(const Dataset& dataset, const MethodOptions& options) {

@@ -5,8 +5,7 @@ namespace stipple {
 void ClusterTable::allocate(std::uint32_t clusters) {
   boxes = GpuBuffer(clusters * sizeof(Row));
   log_pixels = GpuBuffer(clusters * kLevels * sizeof(float));
-  first_cells = GpuBuffer(clusters * sizeof(ShardCells));
-  last_cells = GpuBuffer(clusters * sizeof(ShardCells));
+  shards = GpuBuffer(clusters * sizeof(ShardBoxes));
   capacity = clusters;
 }
 
@@ -19,14 +18,7 @@ void ClusterTable::write_log_pixels(std::uint32_t first, std::span<const float> 
 }
 
 void ClusterTable::write_shards(std::uint32_t first, std::span<const ShardBoxes> values) {
-  std::vector<ShardCells> firsts;
-  std::vector<ShardCells> lasts;
-  for (const ShardBoxes& value : values) {
-    firsts.push_back(value.first);
-    lasts.push_back(value.last);
-  }
-  first_cells.write(first * sizeof(ShardCells), std::span<const ShardCells>(firsts));
-  last_cells.write(first * sizeof(ShardCells), std::span<const ShardCells>(lasts));
+  shards.write(first * sizeof(ShardBoxes), values);
 }
 
 }  // namespace stipple

@@ -47,8 +47,7 @@ struct ClusterTable {
   GpuBuffer boxes;  // a Row a cluster
   // log2 of estimated_pixels() for pixels of root_edge / 2^level, level 0 to kMaxLevel: kLevels floats a cluster.
   GpuBuffer log_pixels;
-  GpuBuffer first_cells;       // of ShardBoxes, those of each cluster
-  GpuBuffer last_cells;        // in two tables, or they would outgrow the others
+  GpuBuffer shards;            // ShardBoxes of each cluster; read as texels
   std::uint32_t size = 0;      // rows in use
   std::uint32_t capacity = 0;  // rows there is room for
   double root_edge = 1.0;      // world units

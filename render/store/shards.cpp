@@ -20,22 +20,17 @@ GridBox box_of(std::span<const Placed> points) {
   return box;
 }
 
-struct PackedBox {
-  std::uint32_t first = 0;
-  std::uint32_t last = 0;
-};
-
-PackedBox pack(const GridBox& shard, const GridBox& cluster) {
-  constexpr std::int64_t kCells = 1 << kShardCellBits;
-  PackedBox packed;
+ShardBox pack(const GridBox& shard, const GridBox& cluster) {
+  constexpr std::int64_t kCells = 1 << ShardBox::kBits;
+  ShardBox packed;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int64_t low = cluster.min[axis];
     const std::int64_t edge = std::max<std::int64_t>(cluster.max[axis] - low, 1);
     const auto cell = [&](std::int64_t x) {
       return static_cast<std::uint32_t>(std::min((x - low) * kCells / edge, kCells - 1));
     };
-    packed.first |= cell(shard.min[axis]) << kShardCellBits * axis;
-    packed.last |= cell(shard.max[axis]) << kShardCellBits * axis;
+    packed.first |= cell(shard.min[axis]) << ShardBox::kBits * axis;
+    packed.last |= cell(shard.max[axis]) << ShardBox::kBits * axis;
   }
   return packed;
 }
@@ -64,9 +59,7 @@ class Dealer {
     if (points.empty()) return;
     const GridBox box = box_of(points);
     if (end - first == 1) {
-      const PackedBox packed = pack(box, cluster_box_);
-      boxes_.first[first] = packed.first;
-      boxes_.last[first] = packed.last;
+      boxes_[first] = pack(box, cluster_box_);
       for (const Placed& point : points) shard_of_[point.place] = static_cast<std::uint8_t>(first);
       return;
     }
@@ -85,7 +78,7 @@ class Dealer {
   GridBox cluster_box_;
   std::vector<Placed> points_;
   std::vector<std::uint8_t> shard_of_;
-  ShardBoxes boxes_;
+  ShardBoxes boxes_{};
 };
 
 }  // namespace
