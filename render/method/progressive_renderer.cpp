@@ -69,8 +69,9 @@ void ProgressiveRenderer::use(Method& method) {
   method_->start_view(view_);
 }
 
-void ProgressiveRenderer::append_carry(std::vector<DrawItem>& items, std::size_t eye) {
-  switch (method_->carry()) {
+void ProgressiveRenderer::append_carry(Carry carry, std::vector<DrawItem>& items, std::size_t eye) {
+  carried_ = carry;
+  switch (carry) {
     case Carry::none:
       break;
     case Carry::grid:
@@ -125,7 +126,7 @@ void ProgressiveRenderer::warm_up(const glm::ivec2& size, std::size_t eyes) {
     steered->drop_frame();
   }
   std::vector<DrawItem> carried;
-  append_carry(carried, 0);
+  append_carry(method_->carry(), carried, 0);
   rasterizer_->draw(current(), carried);
   if (method_->keeps_still_view()) rasterizer_->add(current(), items);
   for (Eye& eye : eyes_)
@@ -188,6 +189,7 @@ FrameReport ProgressiveRenderer::await_report() {
 void ProgressiveRenderer::begin_frame() {
   kept_ = view_drawn_ && method_->keeps_still_view();
   if (!kept_) current_ = 1 - current_;
+  carried_ = Carry::none;
   for (std::size_t number = 0; number < eyes_.size(); ++number) {
     Eye& eye = eyes_[number];
     eye.block.set(make_view_block(view_.of_eye(number), grid_, point_size_, rasterizer_->snapping()));
@@ -198,7 +200,7 @@ void ProgressiveRenderer::begin_frame() {
 
 void ProgressiveRenderer::draw_carried(std::size_t eye) {
   std::vector<DrawItem> carried;
-  append_carry(carried, eye);
+  append_carry(method_->carry(), carried, eye);
   rasterizer_->draw(current(eye), carried);
 }
 
@@ -213,6 +215,8 @@ void ProgressiveRenderer::show_picture(bool carried) {
 std::uint64_t ProgressiveRenderer::draw_selected(std::uint32_t budget, bool over_picture) {
   eyes_[0].block.bind();
   Selection selection = method_->select(budget);
+  const bool has_nothing_yet = selection.points == 0 && !method_->finished();
+  const Carry carry = method_->carry() == Carry::none && has_nothing_yet ? Carry::grid : method_->carry();
   std::vector<DrawItem>& items = selection.items;
   const auto selected = static_cast<std::ptrdiff_t>(items.size());
   for (std::size_t eye = 0; eye < eyes_.size(); ++eye) {
@@ -220,7 +224,7 @@ std::uint64_t ProgressiveRenderer::draw_selected(std::uint32_t budget, bool over
     if (over_picture) {
       rasterizer_->add(current(eye), items);
     } else {
-      if (!blank_) append_carry(items, eye);
+      if (!blank_) append_carry(carry, items, eye);
       rasterizer_->draw(current(eye), items);
       items.erase(items.begin() + selected, items.end());
     }
@@ -238,7 +242,7 @@ std::uint64_t ProgressiveRenderer::covered_pixels(std::size_t eye) {
 }
 
 std::uint64_t ProgressiveRenderer::points_reprojected(std::size_t eye) {
-  return kept_ || method_->carry() == Carry::none ? 0 : coverage_.count(previous(eye).carried_ids());
+  return carried_ == Carry::none ? 0 : coverage_.count(previous(eye).carried_ids());
 }
 
 }  // namespace stipple

@@ -37,7 +37,8 @@ class ProgressiveRenderer {
   void warm_up(const glm::ivec2& size, std::size_t eyes = 1);
 
   // Goes on with `method`, which must outlive the renderer, from the picture that is there: the next frame carries it
-  // as the new method does. The methods must draw the same points, with the same ids.
+  // as the new method does; where that carries nothing, until it has points. The methods must draw the same points,
+  // with the same ids.
   void use(Method& method);
 
   // Gives the points of the picture, from which the next frame carries them, these colours.
@@ -72,8 +73,8 @@ class ProgressiveRenderer {
   std::uint64_t covered_pixels(std::size_t eye = 0);
 
   // Points of the frame before the last that were drawn again in the last: one for each of its pixels where points
-  // cover no more than one; else one for each point, and a few twice. 0 where the last stood, and for methods that
-  // carry nothing. Waits for the GPU.
+  // cover no more than one; else one for each point, and a few twice. 0 where the last stood or was not
+  // carried. Waits for the GPU.
   std::uint64_t points_reprojected(std::size_t eye = 0);
 
  private:
@@ -87,7 +88,7 @@ class ProgressiveRenderer {
   void make_carry(const FeedbackTarget& frame);
   // Called for a finished frame before it is carried.
   void choose_carried(FeedbackTarget& frame);
-  void append_carry(std::vector<DrawItem>& items, std::size_t eye);
+  void append_carry(Carry carry, std::vector<DrawItem>& items, std::size_t eye);
   void append_vertices(std::vector<DrawItem>& items, std::size_t eye);
   // The next targets, and each eye's block.
   void begin_frame();
@@ -113,11 +114,12 @@ class ProgressiveRenderer {
   std::optional<VertexCarry> vertices_;  // one eye's after the other's
   int carry_room_ = 0;                   // pixels
   std::size_t current_ = 0;
-  View view_;                // of size 0: none
-  FrameReport report_;       // of the last frame
-  bool blank_ = true;        // no frame was drawn yet
-  bool view_drawn_ = false;  // whether the last frame shows view_
-  bool kept_ = false;        // the last frame is the one before and what was added to it
+  View view_;                    // of size 0: none
+  FrameReport report_;           // of the last frame
+  bool blank_ = true;            // no frame was drawn yet
+  bool view_drawn_ = false;      // whether the last frame shows view_
+  Carry carried_ = Carry::none;  // how the frame before got into the last
+  bool kept_ = false;            // the last frame is the one before and what was added to it
 };
 
 }  // namespace stipple

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "render/method/progressive_renderer.h"
-#include "tests/render/gl_test.h"
+#include "tests/render/city_tree.h"
 
 namespace stipple::test::render_lod {
 namespace {
@@ -72,6 +75,30 @@ TEST_P(LodOnDisk, DrawsWithoutLoadingTheTree) {
         converged_picture(*cramped, RasterizerKind::compute, on_disk.points.grid, view_of(loaded, camera), 100'000)
             .covered_pixels(),
         0u);
+}
+
+TEST(Lod, ShowsTheLastPictureUntilTheDiskHasGivenPoints) {
+  const View view = view_of_city("oblique");
+  const auto before = make_method(Mode::hybrid, city(false), {.largest_budget = 50'000});
+  ProgressiveRenderer renderer(*before, RasterizerKind::compute, city(false).points.grid);
+  for (FrameReport report; !report.converged;) report = renderer.draw(view, 50'000);
+  const std::uint64_t covered = renderer.covered_pixels();
+
+  std::atomic<int> slow_reads = 8;
+  const auto slow = std::make_shared<FaultyTree>(city(false).tree, [&](const StoredNode&, int) {
+    if (--slow_reads >= 0) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    return false;
+  });
+  Lod lod(std::make_unique<TreeLod>(slow, city(false).colors, 0, 5'000));
+  renderer.use(lod);
+  EXPECT_EQ(renderer.draw(view, kPoints).points_filled, 0u);
+  EXPECT_EQ(renderer.covered_pixels(), covered);
+  EXPECT_EQ(renderer.points_reprojected(), covered);
+  FrameReport report;
+  while (!report.converged) report = renderer.draw(view, kPoints);
+  EXPECT_GT(report.points_filled, 0u);
+  EXPECT_EQ(renderer.points_reprojected(), 0u);
+  EXPECT_TRUE(same_picture(renderer.read(), brute_force_picture(city(true).points, RasterizerKind::compute, view)));
 }
 
 }  // namespace
