@@ -19,7 +19,7 @@ struct ClusterBox {
 const uint kPlaceBits = 22;
 const uint kPlaceMask = (1u << kPlaceBits) - 1u;
 
-// Of this view. A cluster's points are drawn in circles: from `start` on, `drawn` of them until now.
+// Of this view. A cluster's points are drawn in circles: from `start` on, `drawn` of them until now, hidden shards left out.
 struct ClusterState {
   uint start;
   uint drawn;

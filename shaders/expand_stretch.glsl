@@ -23,11 +23,12 @@ void main() {
   uint s = invocation_index();
   if (s >= stretch_count) return;
   Stretch stretch = stretches[s];
+  ClusterState state = states[stretch.cluster];
   uint first = boxes[stretch.cluster].place & kPlaceMask;
   uint size = boxes[stretch.cluster].count;
-  uvec2 open = ~hidden_shards(states[stretch.cluster]);
+  uvec2 open = ~hidden_shards(state);
   uint first_open = to_next(open, 0u);
-  uint place = states[stretch.cluster].start + stretch.first;
+  uint place = state.start + stretch.first;
   if (place >= size) place -= size;
   uint passed = 0u;
   for (uint k = 0u; k < stretch.count; ++k) {
@@ -40,5 +41,7 @@ void main() {
     places[stretch.begin + k] = first + place;
     if (++place == size) place = 0u;
   }
-  states[stretch.cluster].drawn = stretch.first + passed;
+  state.drawn = stretch.first + passed;
+  if (points_left(state, size) == 0u) state.drawn = size;  // what is left of the circle is hidden
+  states[stretch.cluster].drawn = state.drawn;
 }

@@ -23,7 +23,7 @@ layout(location = 4) uniform bool by_density;
 float worth_of(ClusterState state, Prospect prospect, uint count) {
   const float kUncovered = 2.0;  // times a pixel that shows the wrong point
   if (!by_density) prospect.pixels = float(count);
-  float last = min(prospect.pixels / float(max(points_before(count, hidden_shards(state)), 1u)), 1.0);
+  float last = min(prospect.pixels / float(count), 1.0);
   float first = exp(-float(state.drawn) / prospect.pixels);
   // What is nearly hidden waits: it may soon be hidden wholly
   return mix(0.5, 1.0, state.seen) * prospect.open * (last + kUncovered * first) / (1.0 + kUncovered);

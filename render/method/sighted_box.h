@@ -10,8 +10,8 @@ struct SightedBox {
   enum class State {
     waiting,   // in sight, and none of its points drawn in this view
     streamed,  // some of them
-    complete,  // all
-    occluded,  // what it has left is hidden behind what is drawn
+    complete,  // all that it may see
+    occluded,  // what it had left is hidden behind what is drawn
   };
   GridBox box;
   State state = State::waiting;

@@ -35,12 +35,22 @@ ShardBox pack(const GridBox& shard, const GridBox& cluster) {
   return packed;
 }
 
+// The shard that is the leaf-th of the tree of halves: its bits backwards, so that shards next in number are far apart.
+std::uint32_t shard_at(std::uint32_t leaf) {
+  std::uint32_t shard = 0;
+  for (std::uint32_t bit = 1; bit < kShards; bit *= 2) shard = 2 * shard + (leaf & bit ? 1 : 0);
+  return shard;
+}
+
 class Dealer {
  public:
   Dealer(const Grid& grid, std::span<const std::uint32_t> cluster, std::span<const PackedPoint> points,
          const GridBox& box)
       : grid_(grid), cluster_box_(box), points_(cluster.size()), shard_of_(cluster.size()) {
     for (std::uint32_t i = 0; i < cluster.size(); ++i) points_[i] = {points[cluster[i]].position, i};
+    for (std::uint32_t leaf = 0; leaf < kShards; ++leaf)
+      before_[leaf + 1] =
+          before_[leaf] + points_.size() / kShards + (shard_at(leaf) < points_.size() % kShards ? 1 : 0);
     split(points_, 0, kShards);
   }
 
@@ -49,22 +59,18 @@ class Dealer {
   std::uint32_t shard_of(std::size_t place) const { return shard_of_[place]; }
 
  private:
-  // Points of shards [0, end): place k is in shard k % kShards.
-  std::size_t points_before(std::uint32_t end) const {
-    return points_.size() / kShards * end + std::min<std::size_t>(points_.size() % kShards, end);
-  }
-
-  // Halves them across the longest edge of their box until each half is a shard.
+  // Halves the points of these leaves across the longest edge of their box until each half is a shard.
   void split(std::span<Placed> points, std::uint32_t first, std::uint32_t end) {
     if (points.empty()) return;
     const GridBox box = box_of(points);
     if (end - first == 1) {
-      boxes_[first] = pack(box, cluster_box_);
-      for (const Placed& point : points) shard_of_[point.place] = static_cast<std::uint8_t>(first);
+      const std::uint32_t shard = shard_at(first);
+      boxes_[shard] = pack(box, cluster_box_);
+      for (const Placed& point : points) shard_of_[point.place] = static_cast<std::uint8_t>(shard);
       return;
     }
     const std::uint32_t middle = (first + end) / 2;
-    const std::size_t below = points_before(middle) - points_before(first);
+    const std::size_t below = before_[middle] - before_[first];
     if (below < points.size())
       std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(below), points.end(),
                        [axis = longest_axis(grid_, box)](const Placed& a, const Placed& b) {
@@ -78,6 +84,7 @@ class Dealer {
   GridBox cluster_box_;
   std::vector<Placed> points_;
   std::vector<std::uint8_t> shard_of_;
+  std::array<std::size_t, kShards + 1> before_{};  // points of the leaves before: place k is in shard k % kShards
   ShardBoxes boxes_{};
 };
 

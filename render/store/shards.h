@@ -10,7 +10,8 @@
 namespace stipple {
 
 // A cluster's points lie in so many shards, neighbours each: the point at place k of the cluster is in shard
-// k % kShards, so that any prefix of a cluster is a sample of all of its shards. docs/decisions/0011-hybrid.md
+// k % kShards, so that any prefix of a cluster is a sample of all of its shards; and the first few shards are all over
+// it, so that a shorter prefix is, too. docs/decisions/0011-hybrid.md
 inline constexpr std::uint32_t kShards = 64;
 
 // The box of a shard in 1024ths of its cluster's box, rounded outwards: the first cell that it touches and the last,

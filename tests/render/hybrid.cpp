@@ -158,6 +158,24 @@ TEST(HybridSkips, AConvergedViewIsDrawnOnlyWhereItIsNotSkipped) {
   }
 }
 
+TEST(HybridBoxes, AConvergedViewHasDrawnOrHiddenEachOfThem) {
+  using State = SightedBox::State;
+  const Dataset& dataset = scene("city", 200'000);
+  const View view = view_of(dataset, "oblique", {96, 54});
+  const auto method = make_method(Mode::hybrid, dataset.points, nullptr);
+  ProgressiveRenderer renderer(*method, RasterizerKind::compute, dataset.points.grid);
+  const auto count = [&](State state) { return std::ranges::count(method->boxes(), state, &SightedBox::state); };
+  renderer.draw(view, 2'000);
+  EXPECT_GT(count(State::waiting), 0);
+  EXPECT_GT(count(State::streamed), 0);
+  while (!renderer.draw(view, 2'000).converged) {
+  }
+  EXPECT_GT(count(State::complete), 0);
+  EXPECT_GT(count(State::occluded), 0);
+  EXPECT_EQ(count(State::waiting), 0);
+  EXPECT_EQ(count(State::streamed), 0);
+}
+
 TEST_P(HybridRasterizer, AStillViewIsKeptOrDrawnAnewWithTheSameFrames) {
   const Dataset& dataset = scene("city", 200'000);
   const auto kept = make_method(Mode::hybrid, dataset.points, nullptr);
@@ -169,9 +187,9 @@ TEST_P(HybridRasterizer, AStillViewIsKeptOrDrawnAnewWithTheSameFrames) {
     const View view = view_of(dataset, name, {96, 54});
     std::uint64_t covered = 0;
     for (int frame = 0; frame < 6; ++frame) {
-      const FrameReport report = kept_renderer.draw(view, 5'000);
+      const FrameReport report = kept_renderer.draw(view, 2'000);
       ASSERT_FALSE(report.converged);
-      EXPECT_EQ(report.points_filled, anew_renderer.draw(view, 5'000).points_filled);
+      EXPECT_EQ(report.points_filled, anew_renderer.draw(view, 2'000).points_filled);
       EXPECT_TRUE(same_picture(kept_renderer.read(), anew_renderer.read())) << name << frame;
       if (frame > 0) {
         EXPECT_EQ(kept_renderer.points_reprojected(), 0u);

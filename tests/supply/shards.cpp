@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <set>
+#include <utility>
 
 #include "render/store/cluster_cut.h"
 
@@ -71,18 +73,35 @@ TEST(Shards, HoldEveryPointInTheBoxOfItsPlace) {
     }
 }
 
-TEST(Shards, AreNeighbours) {
-  // A square of 16 x 16 points makes 8 x 8 shards
+// 16 x 16 points, which make 8 x 8 shards.
+std::vector<PackedPoint> square() {
   std::vector<glm::ivec3> positions;
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x) positions.push_back({x, y, 0});
-  const std::vector<PackedPoint> points = points_at(positions);
+  return points_at(positions);
+}
+
+TEST(Shards, AreNeighbours) {
+  const std::vector<PackedPoint> points = square();
   const Dealt result = dealt(points);
   for (std::uint32_t shard = 0; shard < kShards; ++shard) {
     GridBox box;
     for (std::size_t place = shard; place < points.size(); place += kShards)
       box.extend(points[result.order[place]].position);
     EXPECT_EQ(box.max - box.min, glm::ivec3(1, 1, 0));
+  }
+}
+
+TEST(Shards, AreAllOverTheClusterHoweverFewComeFirst) {
+  const std::vector<PackedPoint> points = square();
+  const Dealt result = dealt(points);
+  for (const int cells : {1, 2, 4, 8}) {
+    std::set<std::pair<int, int>> reached;
+    for (int place = 0; place < cells * cells; ++place) {
+      const glm::ivec3 position = points[result.order[static_cast<std::size_t>(place)]].position;
+      reached.insert({position.x * cells / 16, position.y * cells / 16});
+    }
+    EXPECT_EQ(reached.size(), static_cast<std::size_t>(cells * cells)) << "each of them, by its first points";
   }
 }
 
