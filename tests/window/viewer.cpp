@@ -221,7 +221,7 @@ TEST_F(ViewerWindow, GoesOnWithoutThePartOfAnOctreeThatCannotBeRead) {
   for (const auto& [key, mode] : {std::pair{"F2", Mode::hierarchical}, {"F5", Mode::lod}, {"F3", Mode::hybrid}}) {
     display().press(key);
     ASSERT_TRUE(until([&, wanted = mode] {
-      EXPECT_TRUE(covered()) << "no frame is blank: " << key;
+      EXPECT_TRUE(covered()) << "no frame is blank";
       return viewer_->stage().pane().mode() == wanted && viewer_->at_rest();
     })) << key;
     EXPECT_EQ(viewer_->stage().unread().parts, 1u) << key;
